@@ -1,0 +1,28 @@
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+
+#include <cstddef>
+
+namespace pendular {
+
+/// Limits every parallel loop of the program to `threads` (0: one per core). Call once, from main.
+void set_threads(int threads);
+
+/// Calls body(first, last) over [0, size) cut into blocks of `block`. The blocks do not depend on the
+/// number of threads, so a sum kept per block and added in order of blocks is bitwise the same for any.
+template <typename Body>
+void for_blocks(std::size_t size, std::size_t block, const Body& body) {
+  const std::size_t blocks = (size + block - 1) / block;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, blocks),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t b = range.begin(); b != range.end(); ++b)
+          body(b * block, b * block + block < size ? b * block + block : size);
+      },
+      tbb::auto_partitioner());
+}
+
+}  // namespace pendular

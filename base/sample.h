@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/files.h"
+
+namespace pendular {
+
+/// What an experimenter believes about a specimen and its test; one TOML file (contract, "Sample file").
+/// All values in SI here; the file's keys carry their own units and are listed with ranges and meaning
+/// in sample_keys(). Defaults are sample A of Hemmerle et al. 2021, Table 1.
+struct Sample {
+  struct Beads {
+    double diameter = 200.9e-6;      ///< mean, m
+    double diameter_sd = 1.9e-6;     ///< true spread of the batch, m
+    double realisation_sd = 0.05;    ///< spread of drawn diameters, share of the mean (paper, Sec. 3.2.1)
+    double density = 2540.0;         ///< kg/m3
+    std::string diameters = "drawn"; ///< "drawn" as the paper does, or "measured": as they are in the packing
+  } beads;
+
+  struct Bridges {
+    double youngs_modulus = 1.5e6;        ///< E_p, Pa
+    double poisson_ratio = 0.49;
+    double diameter = 73.9e-6;            ///< mean neck diameter d, m
+    double diameter_sd = 12.7e-6;         ///< m
+    double gap = 2e-6;                    ///< δ0 for which the stiffness holds, m
+    double cutoff = 0.064;                ///< candidate bridges have gaps below cutoff × D
+    double interfacial_energy = 7.0;      ///< G, J/m2
+    std::optional<double> normal_stiffness;      ///< kn, N/m
+    std::optional<double> tangential_stiffness;  ///< kt, N/m
+  } bridges;
+
+  struct Contact {
+    double stiffness_ratio = 10.0;    ///< k_glass over k_bond, normal and tangential
+    double friction = 0.5;            ///< μ between beads
+    double platen_friction = 0.5;     ///< μ between beads and platens
+    double damping_fraction = 0.1;    ///< ζ over the critical damping of two mean beads in touch
+    double time_step_fraction = 0.1;  ///< time step over √(m_min/k_max)
+    std::string tangential_springs = "two";  ///< "two": bond kt and contact 10 kt apart; "one": one whose stiffness jumps at touch
+    bool bond_friction_limit = true;  ///< Coulomb limit μ|F^n| also on the bond's tangential force
+  } contact;
+
+  struct Specimen {
+    double diameter = 4.25e-3;  ///< m
+    double height = 4.05e-3;    ///< m
+    double volume_fraction = 0.60;  ///< of beads, where a packing is generated
+  } specimen;
+
+  struct Compression {
+    double speed = 1e-4;              ///< platen speed over D √(k_glass/m)
+    std::optional<double> speed_si;   ///< m/s; overrides `speed`
+    double max_strain = 0.10;         ///< engineering strain at which the run ends
+    std::vector<double> unload_at;    ///< strains at which the platen returns to zero stress once, rising
+    double rows_per_strain = 5000.0;  ///< rows of curve.csv per unit strain
+    double frames = 20.0;             ///< frames written, evenly in strain
+  } compression;
+
+  struct Phantom {
+    double voxel = 5e-6;               ///< m
+    double blur_voxels = 1.0;          ///< sd of the Gaussian point spread, voxels
+    double noise = 0.1;                ///< sd of the white noise over the air–glass edge
+    double correlated_noise = 0.0;     ///< sd of noise correlated over correlation_voxels, over the edge
+    double correlation_voxels = 2.0;   ///< sd of the Gaussian kernel that correlates it, voxels
+    double polymer_contrast = 0.3;     ///< (polymer − air)/(glass − air)
+    double wall_thickness = 100e-6;    ///< container wall, m; 0: none
+    double wall_contrast = 0.5;        ///< (wall − air)/(glass − air)
+    double piston_contrast = 0.8;      ///< (piston − air)/(glass − air)
+    double margin = 150e-6;            ///< air around the container and piston shown above and below, m
+    double rings = 0.0;                ///< amplitude of ring artefacts over the edge
+    double beam_hardening = 0.0;       ///< relative loss of grey value on the axis against the rim
+    double bits = 16.0;                ///< 8 or 16, unsigned
+    double air_grey = 0.25;            ///< grey value of air over full scale
+    double glass_grey = 0.60;          ///< grey value of glass over full scale
+  } phantom;
+};
+
+/// One key of the sample file.
+struct SampleKey {
+  std::string name;     ///< dotted, e.g. "bridges.youngs_modulus_pa"
+  double lowest, highest;  ///< accepted range, in the unit of the name
+  std::string meaning;
+};
+
+/// Every numeric key, in the file's order.
+std::vector<SampleKey> sample_keys();
+
+/// Reads and checks a sample file. BadInput names file, line, key, what was found and what was expected;
+/// an unknown key names the nearest known one.
+Sample read_sample(const fs::path& path);
+
+/// The same from text; `name` stands for the file in messages.
+Sample parse_sample(std::string_view text, const std::string& name);
+
+/// Sets or reads one numeric key by its dotted name, in the unit of the name. BadInput for an unknown key
+/// or a value out of range.
+void set_sample_key(Sample& sample, const std::string& name, double value);
+double sample_key(const Sample& sample, const std::string& name);
+
+}  // namespace pendular

@@ -1,0 +1,63 @@
+#include "cli/command.h"
+
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include "base/parallel.h"
+#include "base/progress.h"
+
+namespace pendular::cli {
+namespace {
+
+/// The command as typed, without what cannot change the result, so that equal work has equal provenance.
+std::string canonical_command() {
+  std::ifstream in("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(in, word, '\0');) words.push_back(word);
+  static const std::set<std::string> with_value = {"--threads", "--out", "-o"};
+  static const std::set<std::string> alone = {"--quiet", "--resume"};
+  std::string text = "pendular";
+  for (std::size_t k = 1; k < words.size(); ++k) {
+    const std::string name = words[k].substr(0, words[k].find('='));
+    if (alone.count(name)) continue;
+    if (with_value.count(name)) {
+      if (name == words[k]) ++k;
+      continue;
+    }
+    text += ' ' + words[k];
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_common(CLI::App& command, Common& common, const std::string& out_help, const std::string& out_default) {
+  command.add_option("--threads", common.threads, "Threads to use; 0: one per core. Results do not depend on it")
+      ->check(CLI::Range(0, 4096));
+  command.add_option("--seed", common.seed, "Seed of everything random");
+  command.add_flag("--quiet", common.quiet, "Say nothing but warnings and errors");
+  common.out = out_default;
+  auto* out = command.add_option("-o,--out", common.out, out_help);
+  if (out_default.empty())
+    out->required();
+  else
+    out->capture_default_str();
+}
+
+void apply(const Common& common) {
+  set_threads(common.threads);
+  set_quiet(common.quiet);
+}
+
+Provenance provenance(const Common& common, const std::vector<fs::path>& inputs) {
+  Provenance result;
+  result.version = program_version();
+  result.command = canonical_command();
+  result.seed = common.seed;
+  for (const auto& input : inputs) result.add_input(input);
+  return result;
+}
+
+}  // namespace pendular::cli

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <vector>
+
+#include "base/provenance.h"
+
+namespace pendular::cli {
+
+/// Options that mean the same in every command.
+struct Common {
+  int threads = 0;
+  std::uint64_t seed = 1;
+  bool quiet = false;
+  fs::path out;
+};
+
+/// Adds --threads, --seed, --quiet and -o/--out; `out_default` empty: --out is required.
+void add_common(CLI::App& command, Common& common, const std::string& out_help, const std::string& out_default = "");
+
+/// Applies threads and quiet; call first in a command's callback.
+void apply(const Common& common);
+
+/// Version, command line and seed of this run, and the hashes of its input files.
+Provenance provenance(const Common& common, const std::vector<fs::path>& inputs);
+
+/// Each adds its command to the program; the command runs from the parse callback and throws Error.
+void add_demo(CLI::App& app);
+void add_phantom(CLI::App& app);
+void add_segment(CLI::App& app);
+void add_pack(CLI::App& app);
+void add_compress(CLI::App& app);
+void add_render(CLI::App& app);
+void add_convert(CLI::App& app);
+
+}  // namespace pendular::cli

@@ -1,0 +1,13 @@
+# One static library per folder. A target finds the headers of a folder only through that folder's
+# own include directory (a link of the same name), so including a folder without linking it fails to compile.
+#
+#   pendular_folder_library(packing SOURCES a.cpp b.cpp PUBLIC base PRIVATE VTK::IOXML)
+function(pendular_folder_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(root ${PROJECT_BINARY_DIR}/include/${name})
+  file(MAKE_DIRECTORY ${root})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${name} SYMBOLIC)
+  add_library(${name} STATIC ${arg_SOURCES})
+  target_include_directories(${name} PUBLIC ${root})
+  target_link_libraries(${name} PUBLIC ${arg_PUBLIC} PRIVATE pendular_flags ${arg_PRIVATE})
+endfunction()
