@@ -21,7 +21,8 @@ using Reader = io::CSVReader<kMaxColumns, io::trim_chars<' ', '\t', '\r'>, io::d
 
 std::array<std::string, kMaxColumns> padded_names(std::vector<std::string> names) {
   std::array<std::string, kMaxColumns> all;
-  for (unsigned k = 0; k < kMaxColumns; ++k) all[k] = k < names.size() ? names[k] : std::string("\x01") + std::to_string(k);
+  for (unsigned k = 0; k < kMaxColumns; ++k)
+    all[k] = k < names.size() ? names[k] : std::string("\x01") + std::to_string(k);
   return all;
 }
 
@@ -39,7 +40,9 @@ T parse(const std::string& text, const std::string& where, const std::string& co
 
 }  // namespace
 
-std::string CsvTable::where(std::size_t row) const { return fmt::format("{}:{}", path_.string(), lines_[row]); }
+std::string CsvTable::where(std::size_t row) const {
+  return fmt::format("{}:{}", path_.string(), lines_[row]);
+}
 
 std::vector<double> CsvTable::numbers(const std::string& column, bool empty_is_nan) const {
   const auto& cells = cells_.at(column);
@@ -75,8 +78,11 @@ CsvTable read_csv(const fs::path& path, const std::vector<std::string>& required
   table.path_ = path;
   try {
     Reader reader(path.string());
-    std::apply([&](const auto&... name) { reader.read_header(io::ignore_missing_column | io::ignore_extra_column, name...); },
-               all);
+    std::apply(
+        [&](const auto&... name) {
+          reader.read_header(io::ignore_missing_column | io::ignore_extra_column, name...);
+        },
+        all);
     for (const auto& name : required)
       if (!reader.has_column(name)) bad_input("{}: column {} is missing", path.string(), name);
     std::array<char*, kMaxColumns> cells{};

@@ -12,7 +12,8 @@ namespace pendular {
 /// The exit status belongs to the kind of error (contract: 2 usage, 3 input, 4 computation, 130 interrupted).
 class Error : public std::runtime_error {
  public:
-  Error(int exit_status, const std::string& message) : std::runtime_error(message), exit_status_(exit_status) {}
+  Error(int exit_status, const std::string& message)
+      : std::runtime_error(message), exit_status_(exit_status) {}
   int exit_status() const { return exit_status_; }
 
  private:

@@ -19,22 +19,27 @@ namespace {
 
 /// A temporary name in the same folder, with the same extension so that writers which look at it agree.
 fs::path temporary_beside(const fs::path& path) {
-  return path.parent_path() / fmt::format(".{}.{}.tmp{}", path.stem().string(), ::getpid(), path.extension().string());
+  return path.parent_path() /
+         fmt::format(".{}.{}.tmp{}", path.stem().string(), ::getpid(), path.extension().string());
 }
 
 /// Flushes a finished file to the disc, which is where a full disc is noticed at the latest.
 void sync_to_disc(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY);
-  if (descriptor < 0) throw ComputationFailed(fmt::format("{}: was not written: {}", path.string(), std::strerror(errno)));
+  if (descriptor < 0)
+    throw ComputationFailed(fmt::format("{}: was not written: {}", path.string(), std::strerror(errno)));
   const int failed = ::fsync(descriptor);
   const int why = errno;
   ::close(descriptor);
-  if (failed != 0) throw ComputationFailed(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(why)));
+  if (failed != 0)
+    throw ComputationFailed(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(why)));
 }
 
 class Sha256 {
  public:
-  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) { EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr); }
+  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
+    EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr);
+  }
   void add(const void* bytes, std::size_t size) { EVP_DigestUpdate(context_.get(), bytes, size); }
   std::string hex() {
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
@@ -81,7 +86,8 @@ void write_text(const fs::path& path, std::string_view text) {
     std::ofstream out(temporary, std::ios::binary);
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     out.close();
-    if (!out) throw ComputationFailed(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
+    if (!out)
+      throw ComputationFailed(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
   });
 }
 
@@ -97,7 +103,8 @@ void make_folder(const fs::path& path) {
     bad_input("{}: is a file, expected a folder", path.string());
   fs::create_directories(path, error);
   if (error) bad_input("{}: folder cannot be created: {}", path.string(), error.message());
-  if (::access(path.c_str(), W_OK) != 0) bad_input("{}: folder cannot be written: {}", path.string(), std::strerror(errno));
+  if (::access(path.c_str(), W_OK) != 0)
+    bad_input("{}: folder cannot be written: {}", path.string(), std::strerror(errno));
 }
 
 void require_readable(const fs::path& path, bool folder_allowed) {
@@ -107,7 +114,8 @@ void require_readable(const fs::path& path, bool folder_allowed) {
     if (!folder_allowed) bad_input("{}: is a folder, expected a file", path.string());
     return;
   }
-  if (::access(path.c_str(), R_OK) != 0) bad_input("{}: cannot be read: {}", path.string(), std::strerror(errno));
+  if (::access(path.c_str(), R_OK) != 0)
+    bad_input("{}: cannot be read: {}", path.string(), std::strerror(errno));
 }
 
 std::string sha256(std::string_view bytes) {

@@ -10,7 +10,9 @@ namespace {
 
 std::atomic<bool> stop_asked{false};
 
-extern "C" void ask_to_stop(int) { stop_asked = true; }
+extern "C" void ask_to_stop(int) {
+  stop_asked = true;
+}
 
 }  // namespace
 
@@ -19,7 +21,9 @@ void catch_interrupts() {
   std::signal(SIGTERM, ask_to_stop);
 }
 
-bool interrupted() { return stop_asked; }
+bool interrupted() {
+  return stop_asked;
+}
 
 void stop_if_interrupted() {
   if (stop_asked) throw Interrupted();

@@ -19,21 +19,31 @@ spdlog::logger& logger() {
   return *instance;
 }
 
-bool on_terminal() { return ::isatty(STDERR_FILENO) != 0; }
+bool on_terminal() {
+  return ::isatty(STDERR_FILENO) != 0;
+}
 
 std::string duration(double seconds) {
   if (seconds < 60.0) return fmt::format("{:.0f} s", seconds);
-  if (seconds < 3600.0) return fmt::format("{:.0f} min {:02.0f} s", std::floor(seconds / 60.0), std::fmod(seconds, 60.0));
-  return fmt::format("{:.0f} h {:02.0f} min", std::floor(seconds / 3600.0), std::fmod(seconds, 3600.0) / 60.0);
+  if (seconds < 3600.0)
+    return fmt::format("{:.0f} min {:02.0f} s", std::floor(seconds / 60.0), std::fmod(seconds, 60.0));
+  return fmt::format("{:.0f} h {:02.0f} min", std::floor(seconds / 3600.0),
+                     std::fmod(seconds, 3600.0) / 60.0);
 }
 
 }  // namespace
 
-void set_quiet(bool quiet) { logger().set_level(quiet ? spdlog::level::warn : spdlog::level::info); }
+void set_quiet(bool quiet) {
+  logger().set_level(quiet ? spdlog::level::warn : spdlog::level::info);
+}
 
-void say(const std::string& line) { logger().info(line); }
+void say(const std::string& line) {
+  logger().info(line);
+}
 
-void warn(const std::string& line) { logger().warn("warning: " + line); }
+void warn(const std::string& line) {
+  logger().warn("warning: " + line);
+}
 
 Progress::Progress(std::string what, double total)
     : what_(std::move(what)), total_(total), start_(Clock::now()), next_(start_ + std::chrono::seconds(2)) {}
@@ -49,8 +59,8 @@ void Progress::update(double done, const std::string& note) {
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const double rate = (done - first_) / elapsed;
   const double left = rate > 0.0 ? (total_ - done) / rate : 0.0;
-  std::string line = fmt::format("{}: {:.0f} %, {} gone, {} left{}{}", what_, 100.0 * done / total_, duration(elapsed),
-                                 duration(left), note.empty() ? "" : ", ", note);
+  std::string line = fmt::format("{}: {:.0f} %, {} gone, {} left{}{}", what_, 100.0 * done / total_,
+                                 duration(elapsed), duration(left), note.empty() ? "" : ", ", note);
   if (on_terminal()) {
     std::fputs(("\r\033[K" + line).c_str(), stderr);
     std::fflush(stderr);

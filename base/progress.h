@@ -15,7 +15,8 @@ void say(const std::string& line);
 void warn(const std::string& line);
 
 /// Progress of work that may take longer than two seconds: a line that renews itself on a terminal,
-/// plain lines at growing intervals where standard error is redirected. Silent before two seconds have passed.
+/// plain lines at growing intervals where standard error is redirected. Silent before two seconds have
+/// passed.
 class Progress {
  public:
   /// `total` in the unit that update() is given.

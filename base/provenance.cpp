@@ -2,13 +2,18 @@
 
 namespace pendular {
 
-void Provenance::add_input(const fs::path& path) { inputs.push_back({path.string(), sha256_of(path)}); }
+void Provenance::add_input(const fs::path& path) {
+  inputs.push_back({path.string(), sha256_of(path)});
+}
 
-std::string program_version() { return PENDULAR_VERSION; }
+std::string program_version() {
+  return PENDULAR_VERSION;
+}
 
 nlohmann::ordered_json to_json(const Provenance& provenance) {
   nlohmann::ordered_json inputs = nlohmann::ordered_json::array();
-  for (const auto& input : provenance.inputs) inputs.push_back({{"path", input.path}, {"sha256", input.sha256}});
+  for (const auto& input : provenance.inputs)
+    inputs.push_back({{"path", input.path}, {"sha256", input.sha256}});
   return {{"program", "pendular"},
           {"version", provenance.version},
           {"command", provenance.command},
@@ -29,7 +34,8 @@ Provenance provenance_from_json(const nlohmann::json& json) {
 std::string to_comment(const Provenance& provenance) {
   std::string text = "# pendular " + provenance.version + "\n# command: " + provenance.command +
                      "\n# seed: " + std::to_string(provenance.seed) + "\n";
-  for (const auto& input : provenance.inputs) text += "# input: " + input.path + " sha256 " + input.sha256 + "\n";
+  for (const auto& input : provenance.inputs)
+    text += "# input: " + input.path + " sha256 " + input.sha256 + "\n";
   return text;
 }
 

@@ -13,7 +13,8 @@ namespace pendular {
 /// no thread count, no output path), so that equal work gives equal bytes.
 struct Provenance {
   std::string version;
-  std::string command;  ///< as typed, without what cannot change the result (--threads, --quiet, --out, --resume)
+  std::string
+      command;  ///< as typed, without what cannot change the result (--threads, --quiet, --out, --resume)
   std::uint64_t seed = 0;
   struct Input {
     std::string path;

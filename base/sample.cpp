@@ -20,45 +20,67 @@ const std::vector<NumberKey>& number_keys() {
   static const std::vector<NumberKey> keys = {
       {"beads.diameter_um", um, 0.1, 1e5, PENDULAR_AT(beads.diameter), "mean bead diameter D"},
       {"beads.diameter_sd_um", um, 0.0, 1e4, PENDULAR_AT(beads.diameter_sd), "spread of bead diameters"},
-      {"beads.realisation_sd", 1, 0.0, 0.3, PENDULAR_AT(beads.realisation_sd), "spread of drawn diameters over D"},
+      {"beads.realisation_sd", 1, 0.0, 0.3, PENDULAR_AT(beads.realisation_sd),
+       "spread of drawn diameters over D"},
       {"beads.density_kg_m3", 1, 1.0, 3e4, PENDULAR_AT(beads.density), "density of the beads"},
-      {"bridges.youngs_modulus_pa", 1, 1.0, 1e12, PENDULAR_AT(bridges.youngs_modulus), "Young's modulus E_p of the polymer"},
-      {"bridges.poisson_ratio", 1, 0.0, 0.4999, PENDULAR_AT(bridges.poisson_ratio), "Poisson ratio of the polymer"},
+      {"bridges.youngs_modulus_pa", 1, 1.0, 1e12, PENDULAR_AT(bridges.youngs_modulus),
+       "Young's modulus E_p of the polymer"},
+      {"bridges.poisson_ratio", 1, 0.0, 0.4999, PENDULAR_AT(bridges.poisson_ratio),
+       "Poisson ratio of the polymer"},
       {"bridges.diameter_um", um, 0.01, 1e5, PENDULAR_AT(bridges.diameter), "mean neck diameter d"},
       {"bridges.diameter_sd_um", um, 0.0, 1e4, PENDULAR_AT(bridges.diameter_sd), "spread of neck diameters"},
       {"bridges.gap_um", um, 1e-4, 1e4, PENDULAR_AT(bridges.gap), "gap δ0 for which the stiffness holds"},
-      {"bridges.cutoff", 1, 0.0, 1.0, PENDULAR_AT(bridges.cutoff), "largest gap of a candidate bridge over D"},
-      {"bridges.interfacial_energy_j_m2", 1, 0.0, 1e6, PENDULAR_AT(bridges.interfacial_energy), "interfacial energy G"},
-      {"bridges.normal_stiffness_n_per_m", 1, tiny, inf, PENDULAR_OPTIONAL(bridges.normal_stiffness), "bond stiffness kn"},
-      {"bridges.tangential_stiffness_n_per_m", 1, tiny, inf, PENDULAR_OPTIONAL(bridges.tangential_stiffness), "bond stiffness kt"},
+      {"bridges.cutoff", 1, 0.0, 1.0, PENDULAR_AT(bridges.cutoff),
+       "largest gap of a candidate bridge over D"},
+      {"bridges.interfacial_energy_j_m2", 1, 0.0, 1e6, PENDULAR_AT(bridges.interfacial_energy),
+       "interfacial energy G"},
+      {"bridges.normal_stiffness_n_per_m", 1, tiny, inf, PENDULAR_OPTIONAL(bridges.normal_stiffness),
+       "bond stiffness kn"},
+      {"bridges.tangential_stiffness_n_per_m", 1, tiny, inf, PENDULAR_OPTIONAL(bridges.tangential_stiffness),
+       "bond stiffness kt"},
       {"contact.stiffness_ratio", 1, 0.01, 1e4, PENDULAR_AT(contact.stiffness_ratio), "k_glass over k_bond"},
       {"contact.friction", 1, 0.0, 10.0, PENDULAR_AT(contact.friction), "friction coefficient between beads"},
-      {"contact.platen_friction", 1, 0.0, 10.0, PENDULAR_AT(contact.platen_friction), "friction coefficient at the platens"},
-      {"contact.damping_fraction", 1, 0.0, 1.0, PENDULAR_AT(contact.damping_fraction), "damping over critical damping"},
-      {"contact.time_step_fraction", 1, 1e-4, 0.5, PENDULAR_AT(contact.time_step_fraction), "time step over √(m_min/k_max)"},
+      {"contact.platen_friction", 1, 0.0, 10.0, PENDULAR_AT(contact.platen_friction),
+       "friction coefficient at the platens"},
+      {"contact.damping_fraction", 1, 0.0, 1.0, PENDULAR_AT(contact.damping_fraction),
+       "damping over critical damping"},
+      {"contact.time_step_fraction", 1, 1e-4, 0.5, PENDULAR_AT(contact.time_step_fraction),
+       "time step over √(m_min/k_max)"},
       {"specimen.diameter_um", um, 1.0, 1e6, PENDULAR_AT(specimen.diameter), "diameter of the cylinder"},
       {"specimen.height_um", um, 1.0, 1e6, PENDULAR_AT(specimen.height), "height of the cylinder"},
-      {"specimen.volume_fraction", 1, 0.3, 0.64, PENDULAR_AT(specimen.volume_fraction), "volume fraction of a generated packing"},
+      {"specimen.volume_fraction", 1, 0.3, 0.64, PENDULAR_AT(specimen.volume_fraction),
+       "volume fraction of a generated packing"},
       {"compression.speed", 1, 1e-9, 0.1, PENDULAR_AT(compression.speed), "platen speed over D √(k_glass/m)"},
       {"compression.speed_mm_s", mm_s, 1e-9, 1e6, PENDULAR_OPTIONAL(compression.speed_si), "platen speed"},
-      {"compression.max_strain", 1, 1e-6, 0.5, PENDULAR_AT(compression.max_strain), "strain at which the run ends"},
-      {"compression.rows_per_strain", 1, 10.0, 1e7, PENDULAR_AT(compression.rows_per_strain), "rows of curve.csv per unit strain"},
-      {"compression.frames", 1, 1.0, 1e4, PENDULAR_AT(compression.frames), "frames written, evenly in strain"},
+      {"compression.max_strain", 1, 1e-6, 0.5, PENDULAR_AT(compression.max_strain),
+       "strain at which the run ends"},
+      {"compression.rows_per_strain", 1, 10.0, 1e7, PENDULAR_AT(compression.rows_per_strain),
+       "rows of curve.csv per unit strain"},
+      {"compression.frames", 1, 1.0, 1e4, PENDULAR_AT(compression.frames),
+       "frames written, evenly in strain"},
       {"phantom.voxel_um", um, 1e-3, 1e4, PENDULAR_AT(phantom.voxel), "voxel size"},
       {"phantom.blur_voxels", 1, 0.0, 10.0, PENDULAR_AT(phantom.blur_voxels), "sd of the point spread"},
       {"phantom.noise", 1, 0.0, 5.0, PENDULAR_AT(phantom.noise), "white noise over the air–glass edge"},
-      {"phantom.correlated_noise", 1, 0.0, 5.0, PENDULAR_AT(phantom.correlated_noise), "correlated noise over the edge"},
-      {"phantom.correlation_voxels", 1, 0.1, 20.0, PENDULAR_AT(phantom.correlation_voxels), "reach of the correlated noise"},
-      {"phantom.polymer_contrast", 1, 0.0, 2.0, PENDULAR_AT(phantom.polymer_contrast), "polymer over glass, both above air"},
-      {"phantom.wall_thickness_um", um, 0.0, 1e5, PENDULAR_AT(phantom.wall_thickness), "container wall, 0: none"},
-      {"phantom.wall_contrast", 1, 0.0, 5.0, PENDULAR_AT(phantom.wall_contrast), "wall over glass, both above air"},
-      {"phantom.piston_contrast", 1, 0.0, 5.0, PENDULAR_AT(phantom.piston_contrast), "pistons over glass, both above air"},
+      {"phantom.correlated_noise", 1, 0.0, 5.0, PENDULAR_AT(phantom.correlated_noise),
+       "correlated noise over the edge"},
+      {"phantom.correlation_voxels", 1, 0.1, 20.0, PENDULAR_AT(phantom.correlation_voxels),
+       "reach of the correlated noise"},
+      {"phantom.polymer_contrast", 1, 0.0, 2.0, PENDULAR_AT(phantom.polymer_contrast),
+       "polymer over glass, both above air"},
+      {"phantom.wall_thickness_um", um, 0.0, 1e5, PENDULAR_AT(phantom.wall_thickness),
+       "container wall, 0: none"},
+      {"phantom.wall_contrast", 1, 0.0, 5.0, PENDULAR_AT(phantom.wall_contrast),
+       "wall over glass, both above air"},
+      {"phantom.piston_contrast", 1, 0.0, 5.0, PENDULAR_AT(phantom.piston_contrast),
+       "pistons over glass, both above air"},
       {"phantom.margin_um", um, 0.0, 1e5, PENDULAR_AT(phantom.margin), "air around the container"},
       {"phantom.rings", 1, 0.0, 1.0, PENDULAR_AT(phantom.rings), "amplitude of rings over the edge"},
-      {"phantom.beam_hardening", 1, 0.0, 0.9, PENDULAR_AT(phantom.beam_hardening), "grey value lost on the axis"},
+      {"phantom.beam_hardening", 1, 0.0, 0.9, PENDULAR_AT(phantom.beam_hardening),
+       "grey value lost on the axis"},
       {"phantom.bits", 1, 8.0, 16.0, PENDULAR_AT(phantom.bits), "8 or 16"},
       {"phantom.air_grey", 1, 0.0, 1.0, PENDULAR_AT(phantom.air_grey), "grey value of air over full scale"},
-      {"phantom.glass_grey", 1, 0.0, 1.0, PENDULAR_AT(phantom.glass_grey), "grey value of glass over full scale"},
+      {"phantom.glass_grey", 1, 0.0, 1.0, PENDULAR_AT(phantom.glass_grey),
+       "grey value of glass over full scale"},
   };
 #undef PENDULAR_AT
 #undef PENDULAR_OPTIONAL
@@ -68,7 +90,9 @@ const std::vector<NumberKey>& number_keys() {
 const std::vector<WordKey>& word_keys() {
   static const std::vector<WordKey> keys = {
       {"beads.diameters", {"drawn", "measured"}, [](Sample& s) -> std::string& { return s.beads.diameters; }},
-      {"contact.tangential_springs", {"one", "two"}, [](Sample& s) -> std::string& { return s.contact.tangential_springs; }},
+      {"contact.tangential_springs",
+       {"one", "two"},
+       [](Sample& s) -> std::string& { return s.contact.tangential_springs; }},
   };
   return keys;
 }
@@ -102,7 +126,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 const NumberKey& find_number_key(const std::string& name) {
   for (const auto& key : number_keys())
     if (key.name == name) return key;
-  bad_input("unknown key \"{}\", expected a numeric key of the sample file; the nearest is \"{}\"", name, nearest_key(name));
+  bad_input("unknown key \"{}\", expected a numeric key of the sample file; the nearest is \"{}\"", name,
+            nearest_key(name));
 }
 
 }  // namespace
@@ -140,7 +165,9 @@ std::vector<SampleKey> sample_keys() {
   return keys;
 }
 
-void set_sample_key(Sample& sample, const std::string& name, double value) { find_number_key(name).set(sample, value); }
+void set_sample_key(Sample& sample, const std::string& name, double value) {
+  find_number_key(name).set(sample, value);
+}
 
 double sample_key(const Sample& sample, const std::string& name) {
   const auto value = find_number_key(name).get(sample);

@@ -15,21 +15,22 @@ namespace pendular {
 /// in sample_keys(). Defaults are sample A of Hemmerle et al. 2021, Table 1.
 struct Sample {
   struct Beads {
-    double diameter = 200.9e-6;      ///< mean, m
-    double diameter_sd = 1.9e-6;     ///< true spread of the batch, m
-    double realisation_sd = 0.05;    ///< spread of drawn diameters, share of the mean (paper, Sec. 3.2.1)
-    double density = 2540.0;         ///< kg/m3
-    std::string diameters = "drawn"; ///< "drawn" as the paper does, or "measured": as they are in the packing
+    double diameter = 200.9e-6;    ///< mean, m
+    double diameter_sd = 1.9e-6;   ///< true spread of the batch, m
+    double realisation_sd = 0.05;  ///< spread of drawn diameters, share of the mean (paper, Sec. 3.2.1)
+    double density = 2540.0;       ///< kg/m3
+    std::string diameters =
+        "drawn";  ///< "drawn" as the paper does, or "measured": as they are in the packing
   } beads;
 
   struct Bridges {
-    double youngs_modulus = 1.5e6;        ///< E_p, Pa
+    double youngs_modulus = 1.5e6;  ///< E_p, Pa
     double poisson_ratio = 0.49;
-    double diameter = 73.9e-6;            ///< mean neck diameter d, m
-    double diameter_sd = 12.7e-6;         ///< m
-    double gap = 2e-6;                    ///< δ0 for which the stiffness holds, m
-    double cutoff = 0.064;                ///< candidate bridges have gaps below cutoff × D
-    double interfacial_energy = 7.0;      ///< G, J/m2
+    double diameter = 73.9e-6;                   ///< mean neck diameter d, m
+    double diameter_sd = 12.7e-6;                ///< m
+    double gap = 2e-6;                           ///< δ0 for which the stiffness holds, m
+    double cutoff = 0.064;                       ///< candidate bridges have gaps below cutoff × D
+    double interfacial_energy = 7.0;             ///< G, J/m2
     std::optional<double> normal_stiffness;      ///< kn, N/m
     std::optional<double> tangential_stiffness;  ///< kt, N/m
   } bridges;
@@ -40,13 +41,14 @@ struct Sample {
     double platen_friction = 0.5;     ///< μ between beads and platens
     double damping_fraction = 0.1;    ///< ζ over the critical damping of two mean beads in touch
     double time_step_fraction = 0.1;  ///< time step over √(m_min/k_max)
-    std::string tangential_springs = "two";  ///< "two": bond kt and contact 10 kt apart; "one": one whose stiffness jumps at touch
+    std::string tangential_springs =
+        "two";  ///< "two": bond kt and contact 10 kt apart; "one": one whose stiffness jumps at touch
     bool bond_friction_limit = true;  ///< Coulomb limit μ|F^n| also on the bond's tangential force
   } contact;
 
   struct Specimen {
-    double diameter = 4.25e-3;  ///< m
-    double height = 4.05e-3;    ///< m
+    double diameter = 4.25e-3;      ///< m
+    double height = 4.05e-3;        ///< m
     double volume_fraction = 0.60;  ///< of beads, where a packing is generated
   } specimen;
 
@@ -60,27 +62,27 @@ struct Sample {
   } compression;
 
   struct Phantom {
-    double voxel = 5e-6;               ///< m
-    double blur_voxels = 1.0;          ///< sd of the Gaussian point spread, voxels
-    double noise = 0.1;                ///< sd of the white noise over the air–glass edge
-    double correlated_noise = 0.0;     ///< sd of noise correlated over correlation_voxels, over the edge
-    double correlation_voxels = 2.0;   ///< sd of the Gaussian kernel that correlates it, voxels
-    double polymer_contrast = 0.3;     ///< (polymer − air)/(glass − air)
-    double wall_thickness = 100e-6;    ///< container wall, m; 0: none
-    double wall_contrast = 0.5;        ///< (wall − air)/(glass − air)
-    double piston_contrast = 0.8;      ///< (piston − air)/(glass − air)
-    double margin = 150e-6;            ///< air around the container and piston shown above and below, m
-    double rings = 0.0;                ///< amplitude of ring artefacts over the edge
-    double beam_hardening = 0.0;       ///< relative loss of grey value on the axis against the rim
-    double bits = 16.0;                ///< 8 or 16, unsigned
-    double air_grey = 0.25;            ///< grey value of air over full scale
-    double glass_grey = 0.60;          ///< grey value of glass over full scale
+    double voxel = 5e-6;              ///< m
+    double blur_voxels = 1.0;         ///< sd of the Gaussian point spread, voxels
+    double noise = 0.1;               ///< sd of the white noise over the air–glass edge
+    double correlated_noise = 0.0;    ///< sd of noise correlated over correlation_voxels, over the edge
+    double correlation_voxels = 2.0;  ///< sd of the Gaussian kernel that correlates it, voxels
+    double polymer_contrast = 0.3;    ///< (polymer − air)/(glass − air)
+    double wall_thickness = 100e-6;   ///< container wall, m; 0: none
+    double wall_contrast = 0.5;       ///< (wall − air)/(glass − air)
+    double piston_contrast = 0.8;     ///< (piston − air)/(glass − air)
+    double margin = 150e-6;           ///< air around the container and piston shown above and below, m
+    double rings = 0.0;               ///< amplitude of ring artefacts over the edge
+    double beam_hardening = 0.0;      ///< relative loss of grey value on the axis against the rim
+    double bits = 16.0;               ///< 8 or 16, unsigned
+    double air_grey = 0.25;           ///< grey value of air over full scale
+    double glass_grey = 0.60;         ///< grey value of glass over full scale
   } phantom;
 };
 
 /// One key of the sample file.
 struct SampleKey {
-  std::string name;     ///< dotted, e.g. "bridges.youngs_modulus_pa"
+  std::string name;        ///< dotted, e.g. "bridges.youngs_modulus_pa"
   double lowest, highest;  ///< accepted range, in the unit of the name
   std::string meaning;
 };

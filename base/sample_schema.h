@@ -21,8 +21,8 @@ struct NumberKey {
   std::variant<PlainField, OptionalField> field;
   std::string meaning;
 
-  void set(Sample& sample, double value) const;               ///< BadInput out of range
-  std::optional<double> get(const Sample& sample) const;      ///< in the key's unit
+  void set(Sample& sample, double value) const;           ///< BadInput out of range
+  std::optional<double> get(const Sample& sample) const;  ///< in the key's unit
 };
 
 struct WordKey {

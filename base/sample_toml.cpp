@@ -20,16 +20,22 @@ struct Place {
 
 std::string type_name(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::string: return "a string";
-    case toml::node_type::array: return "an array";
-    case toml::node_type::table: return "a table";
-    case toml::node_type::boolean: return "a boolean";
-    default: return "another type";
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::boolean:
+      return "a boolean";
+    default:
+      return "another type";
   }
 }
 
 double number_at(const Place& place) {
-  if (!place.node.is_number()) bad_input("{}: found {}, expected a number", place.str(), type_name(place.node));
+  if (!place.node.is_number())
+    bad_input("{}: found {}, expected a number", place.str(), type_name(place.node));
   const double value = place.node.value<double>().value();
   if (!std::isfinite(value)) bad_input("{}: found {}, expected a finite number", place.str(), value);
   return value;
@@ -37,9 +43,10 @@ double number_at(const Place& place) {
 
 void read_word(Sample& sample, const WordKey& key, const Place& place) {
   const auto word = place.node.value<std::string>();
-  if (!place.node.is_string() || std::find(key.allowed.begin(), key.allowed.end(), *word) == key.allowed.end())
-    bad_input("{}: found {}, expected one of \"{}\"", place.str(), word ? '"' + *word + '"' : type_name(place.node),
-              fmt::join(key.allowed, "\", \""));
+  if (!place.node.is_string() ||
+      std::find(key.allowed.begin(), key.allowed.end(), *word) == key.allowed.end())
+    bad_input("{}: found {}, expected one of \"{}\"", place.str(),
+              word ? '"' + *word + '"' : type_name(place.node), fmt::join(key.allowed, "\", \""));
   key.field(sample) = *word;
 }
 
@@ -69,7 +76,8 @@ void read_key(Sample& sample, const Place& place) {
     if (key.name == place.name) return read_word(sample, key, place);
   if (place.name == "compression.unload_at") return read_unload_at(sample, place);
   if (place.name == "contact.bond_friction_limit") {
-    if (!place.node.is_boolean()) bad_input("{}: found {}, expected true or false", place.str(), type_name(place.node));
+    if (!place.node.is_boolean())
+      bad_input("{}: found {}, expected true or false", place.str(), type_name(place.node));
     sample.contact.bond_friction_limit = place.node.value<bool>().value();
     return;
   }
@@ -85,7 +93,9 @@ void check_together(const Sample& sample, const std::string& file) {
     bad_input("{}: bridges.diameter_um = {:.4g}: expected less than beads.diameter_um = {:.4g}", file,
               1e6 * sample.bridges.diameter, 1e6 * sample.beads.diameter);
   if (sample.bridges.normal_stiffness.has_value() != sample.bridges.tangential_stiffness.has_value())
-    bad_input("{}: bridges: normal_stiffness_n_per_m and tangential_stiffness_n_per_m: expected both or neither", file);
+    bad_input(
+        "{}: bridges: normal_stiffness_n_per_m and tangential_stiffness_n_per_m: expected both or neither",
+        file);
   if (sample.phantom.bits != 8.0 && sample.phantom.bits != 16.0)
     bad_input("{}: phantom.bits = {}: expected 8 or 16", file, sample.phantom.bits);
   if (sample.phantom.air_grey == sample.phantom.glass_grey)
@@ -107,7 +117,8 @@ Sample parse_sample(std::string_view text, const std::string& name) {
   for (const auto& [section, node] : root) {
     const auto* table = node.as_table();
     const std::string prefix(section.str());
-    if (!table) bad_input("{}", Place{name, prefix, node}.str() + ": unknown key, expected a section such as [beads]");
+    if (!table)
+      bad_input("{}", Place{name, prefix, node}.str() + ": unknown key, expected a section such as [beads]");
     for (const auto& [key, value] : *table) {
       const std::string dotted = prefix + "." + std::string(key.str());
       read_key(sample, {name, dotted, value});
@@ -120,6 +131,8 @@ Sample parse_sample(std::string_view text, const std::string& name) {
   return sample;
 }
 
-Sample read_sample(const fs::path& path) { return parse_sample(read_text(path), path.string()); }
+Sample read_sample(const fs::path& path) {
+  return parse_sample(read_text(path), path.string());
+}
 
 }  // namespace pendular

@@ -1,9 +1,6 @@
 #include "cli/command.h"
 
-#include <fstream>
-#include <iterator>
 #include <set>
-#include <sstream>
 
 #include "base/parallel.h"
 #include "base/progress.h"
@@ -11,30 +8,35 @@
 namespace pendular::cli {
 namespace {
 
+std::vector<std::string> command_line;
+
 /// The command as typed, without what cannot change the result, so that equal work has equal provenance.
 std::string canonical_command() {
-  std::ifstream in("/proc/self/cmdline", std::ios::binary);
-  std::vector<std::string> words;
-  for (std::string word; std::getline(in, word, '\0');) words.push_back(word);
   static const std::set<std::string> with_value = {"--threads", "--out", "-o"};
   static const std::set<std::string> alone = {"--quiet", "--resume"};
   std::string text = "pendular";
-  for (std::size_t k = 1; k < words.size(); ++k) {
-    const std::string name = words[k].substr(0, words[k].find('='));
+  for (std::size_t k = 0; k < command_line.size(); ++k) {
+    const std::string name = command_line[k].substr(0, command_line[k].find('='));
     if (alone.count(name)) continue;
     if (with_value.count(name)) {
-      if (name == words[k]) ++k;
+      if (name == command_line[k]) ++k;
       continue;
     }
-    text += ' ' + words[k];
+    text += ' ' + command_line[k];
   }
   return text;
 }
 
 }  // namespace
 
-void add_common(CLI::App& command, Common& common, const std::string& out_help, const std::string& out_default) {
-  command.add_option("--threads", common.threads, "Threads to use; 0: one per core. Results do not depend on it")
+void set_command_line(const std::vector<std::string>& words) {
+  command_line = words;
+}
+
+void add_common(CLI::App& command, Common& common, const std::string& out_help,
+                const std::string& out_default) {
+  command
+      .add_option("--threads", common.threads, "Threads to use; 0: one per core. Results do not depend on it")
       ->check(CLI::Range(0, 4096));
   command.add_option("--seed", common.seed, "Seed of everything random");
   command.add_flag("--quiet", common.quiet, "Say nothing but warnings and errors");

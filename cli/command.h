@@ -17,10 +17,14 @@ struct Common {
 };
 
 /// Adds --threads, --seed, --quiet and -o/--out; `out_default` empty: --out is required.
-void add_common(CLI::App& command, Common& common, const std::string& out_help, const std::string& out_default = "");
+void add_common(CLI::App& command, Common& common, const std::string& out_help,
+                const std::string& out_default = "");
 
 /// Applies threads and quiet; call first in a command's callback.
 void apply(const Common& common);
+
+/// The words of the command that runs now, for its provenance.
+void set_command_line(const std::vector<std::string>& words);
 
 /// Version, command line and seed of this run, and the hashes of its input files.
 Provenance provenance(const Common& common, const std::vector<fs::path>& inputs);

@@ -1,0 +1,88 @@
+#include <optional>
+
+#include "base/error.h"
+#include "cli/command.h"
+#include "packing/exchange.h"
+#include "packing/tables.h"
+
+namespace pendular::cli {
+namespace {
+
+struct ConvertOptions {
+  Common common;
+  fs::path in, out, bridges;
+  std::string from, format;
+  double density = 2540.0;
+  std::optional<double> diameter_um;
+};
+
+ExchangeFormat format_for(const std::string& word, const fs::path& path) {
+  return word.empty() ? exchange_format_of(path) : exchange_format(word);
+}
+
+/// The output as named by its place or by --out.
+fs::path output_of(const ConvertOptions& options) {
+  if (options.out.empty() == options.common.out.empty()) throw BadUsage("convert: expected one output file");
+  return options.out.empty() ? options.common.out : options.out;
+}
+
+/// Provenance that does not depend on the output's name, as for --out.
+Provenance provenance_for(const ConvertOptions& options, const std::vector<fs::path>& inputs) {
+  Provenance result = provenance(options.common, inputs);
+  if (const auto at =
+          options.out.empty() ? std::string::npos : result.command.rfind(' ' + options.out.string());
+      at != std::string::npos)
+    result.command.erase(at, 1 + options.out.string().size());
+  return result;
+}
+
+void run(const ConvertOptions& options) {
+  apply(options.common);
+  const fs::path out = output_of(options);
+  const ExchangeFormat from = format_for(options.from, options.in), to = format_for(options.format, out);
+  std::optional<double> diameter;
+  if (options.diameter_um) diameter = 1e-6 * *options.diameter_um;
+  Packing packing = read_exchange(options.in, from, diameter);
+  std::vector<fs::path> inputs = {options.in};
+  const bool reads_bridges = from == ExchangeFormat::csv && !options.bridges.empty();
+  if (reads_bridges) {
+    packing.bridges = read_bridges(options.bridges, packing.beads);
+    inputs.push_back(options.bridges);
+  }
+  packing.provenance = provenance_for(options, inputs);
+  write_exchange(out, to, packing, options.density);
+  if (to == ExchangeFormat::csv && !reads_bridges && !options.bridges.empty())
+    write_bridges(options.bridges, packing.beads, packing.bridges, packing.provenance);
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app) {
+  auto options = std::make_shared<ConvertOptions>();
+  auto* command = app.add_subcommand(
+      "convert",
+      "Packings from and to other programs' files.\n"
+      "vtp: packing of this program. csv: beads.csv, lengths in um. yade: x_y_z_r text, lengths in m.\n"
+      "lammps: data file, units si, atom_style hybrid sphere bond (reads sphere and bpm/sphere too).\n"
+      "liggghts: data file, units si, atom_style granular. xyz (read only): lines of id x y z in bead "
+      "radii.\n"
+      "The format follows from the extension: .vtp, .csv, .txt (yade), .data, .lmp (lammps), .liggghts, "
+      ".xyz.");
+  command->add_option("input", options->in, "File to read; axes x, y, z")->required();
+  command->add_option("--from", options->from, "Format of the input, where the extension does not say it");
+  command->add_option("--format", options->format,
+                      "Format of the output, where the extension does not say it");
+  command->add_option("--bridges", options->bridges,
+                      "bridges.csv: read beside a csv input, written beside a csv output");
+  command->add_option("--density-kg-m3", options->density, "Bead density in LAMMPS and LIGGGHTS files")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--diameter-um", options->diameter_um, "Bead diameter of an xyz input")
+      ->check(CLI::PositiveNumber);
+  add_common(*command, options->common, "File to write");
+  command->get_option("--out")->required(false);
+  command->add_option("output", options->out, "File to write");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace pendular::cli

@@ -1,0 +1,118 @@
+#include "base/error.h"
+#include "base/progress.h"
+#include "base/sample.h"
+#include "cli/command.h"
+#include "packing/bridges.h"
+#include "packing/generate.h"
+#include "packing/statistics.h"
+#include "packing/tables.h"
+#include "packing/vtp.h"
+
+namespace pendular::cli {
+namespace {
+
+struct PackOptions {
+  Common common;
+  fs::path beads, sample, bridges;
+  bool generate = false;
+};
+
+/// Beads in another unit than µm differ from the sample's by powers of ten.
+void check_unit(const PackOptions& options, const std::vector<Bead>& beads, const Sample& sample) {
+  const double mean = mean_diameter(beads), expected = sample.beads.diameter;
+  if (mean > 3.0 * expected || mean < expected / 3.0)
+    bad_input(
+        "{}: column diameter_um: found a mean of {:.4g}, expected about {:.4g} (beads.diameter_um of {}; "
+        "wrong unit?)",
+        options.beads.string(), 1e6 * mean, 1e6 * expected, options.sample.string());
+}
+
+void check_extent(const Packing& packing) {
+  const Specimen held = specimen_enclosing(packing.beads);
+  const Specimen& said = packing.specimen;
+  const double tolerance = 0.1 * mean_diameter(packing.beads);
+  if (held.diameter > said.diameter + tolerance || held.height > said.height + tolerance)
+    warn(fmt::format(
+        "the beads fill a cylinder {:.1f} um wide and {:.1f} um high, the sample says {:.1f} and {:.1f}",
+        1e6 * held.diameter, 1e6 * held.height, 1e6 * said.diameter, 1e6 * said.height));
+}
+
+Packing measured_packing(const PackOptions& options, const Sample& sample) {
+  Packing packing;
+  packing.beads = read_beads(options.beads);
+  check_unit(options, packing.beads, sample);
+  packing.specimen = specimen_around(packing.beads, sample.specimen.diameter, sample.specimen.height);
+  check_extent(packing);
+  flag_boundary(packing);
+  return packing;
+}
+
+std::vector<Bridge> bridges_for(const PackOptions& options, const std::vector<Bead>& beads,
+                                const Sample& sample) {
+  if (options.bridges.empty()) return candidate_bridges(beads, sample.bridges.cutoff * sample.beads.diameter);
+  std::vector<Bridge> bridges = read_bridges(options.bridges, beads);
+  std::erase_if(bridges, [](const Bridge& bridge) { return bridge.state != BridgeState::bridge; });
+  if (bridges.empty())
+    bad_input("{}: found no row in state bridge, expected measured bridges", options.bridges.string());
+  return bridges;
+}
+
+void report(const PackingStatistics& s) {
+  say(fmt::format("{} beads, mean diameter {:.2f} um, sd {:.2f} um", s.beads, 1e6 * s.mean_diameter,
+                  1e6 * s.diameter_sd));
+  say(fmt::format("{} bridges, {:.3f} +- {:.3f} per interior bead ({} of them)", s.bridges,
+                  s.coordination.mean, s.coordination.standard_error, s.coordination.beads));
+  say(fmt::format("volume fraction {:.4f}, in the core {:.4f}; {:.1f} % of neighbours touch",
+                  s.volume_fraction, s.core_volume_fraction, 100.0 * s.touching_share));
+}
+
+void run(const PackOptions& options) {
+  apply(options.common);
+  if (options.generate != options.beads.empty())
+    throw BadUsage("pack: expected either beads.csv or --generate");
+  if (options.generate && !options.bridges.empty())
+    throw BadUsage("pack: --bridges goes with measured beads");
+  if (options.common.out.extension() != ".vtp")
+    throw BadUsage(
+        fmt::format("pack: --out: found {}, expected a name ending in .vtp", options.common.out.string()));
+  const Sample sample = read_sample(options.sample);
+  Packing packing =
+      options.generate ? generate_packing(sample, options.common.seed) : measured_packing(options, sample);
+  packing.bridges = bridges_for(options, packing.beads, sample);
+  std::vector<fs::path> inputs = {options.sample};
+  for (const auto& input : {options.beads, options.bridges})
+    if (!input.empty()) inputs.push_back(input);
+  packing.provenance = provenance(options.common, inputs);
+
+  const PackingStatistics statistics =
+      packing_statistics(packing, sample.bridges.cutoff * sample.beads.diameter);
+  nlohmann::ordered_json json = to_json(statistics);
+  json["provenance"] = to_json(packing.provenance);
+  write_packing(options.common.out, packing);
+  write_text(fs::path(options.common.out).replace_extension(".json"), json.dump(2) + "\n");
+  report(statistics);
+}
+
+}  // namespace
+
+void add_pack(CLI::App& app) {
+  auto options = std::make_shared<PackOptions>();
+  auto* command = app.add_subcommand(
+      "pack",
+      "Beads to a packing: bridges, coordination number, gaps, volume fraction.\n"
+      "Bridges are the pairs with gaps below bridges.cutoff x beads.diameter_um of the sample, or those of "
+      "state\n"
+      "bridge in --bridges. The specimen has the sample's size, its axis in the middle of the beads' extent "
+      "and\n"
+      "its bottom at the lowest bead. The statistics are written beside the packing as .json.");
+  command->add_option("beads", options->beads,
+                      "beads.csv (bead_id,x_um,y_um,z_um,diameter_um,...; axes x, y, z)");
+  command->add_option("--sample", options->sample, "Sample file (.toml)")->required();
+  command->add_option("--bridges", options->bridges, "Measured bridges (bridges.csv) instead of candidates");
+  command->add_flag("--generate", options->generate,
+                    "Make a random packing from the sample instead of reading beads");
+  add_common(*command, options->common, "Packing to write (.vtp)");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace pendular::cli

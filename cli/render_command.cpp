@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "base/progress.h"
+#include "cli/command.h"
+#include "viz/render_run.h"
+#include "viz/report.h"
+#include "viz/scene.h"
+
+namespace pendular::cli {
+namespace {
+
+struct Options {
+  Common common;
+  fs::path run;
+  viz::RenderOptions render;
+  bool no_film = false;
+};
+
+void render(Options& options) {
+  apply(options.common);
+  const fs::path out = options.common.out.empty() ? options.run / "pictures" : options.common.out;
+  options.render.film = !options.no_film;
+  options.render.provenance = provenance(options.common, viz::picture_inputs(options.run));
+  const auto summary = viz::render_run(options.run, out, options.render);
+  viz::write_report(out / "report.html", {"Compression of " + fs::canonical(options.run).filename().string(),
+                                          viz::compression_summary(summary),
+                                          {viz::compression_section(summary)},
+                                          {{"pictures", to_json(options.render.provenance)},
+                                           {"run", summary.run.result.provenance}}});
+  say(fmt::format("{} pictures{} and report.html in {}", summary.pictures.size(),
+                  summary.video ? ", film.mp4" : "", out.string()));
+}
+
+}  // namespace
+
+void add_render(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  auto* command =
+      app.add_subcommand("render", "Off-screen pictures, a film of the failure and a report of a run folder");
+  command
+      ->add_option("run", options->run,
+                   "Run folder of `pendular compress`; of several realisations the first is drawn "
+                   "and all curves are overlaid")
+      ->required();
+  std::vector<std::string> names;
+  for (const viz::View& view : viz::views()) names.push_back(view.name);
+  command->add_option("--view", options->render.view, "Draw only this view")->check(CLI::IsMember(names));
+  command->add_flag("--no-film", options->no_film, "Make no film");
+  add_common(*command, options->common, "Folder for the pictures [RUN/pictures]");
+  command->get_option("--out")->required(false);
+  command->callback([options] { render(*options); });
+}
+
+}  // namespace pendular::cli

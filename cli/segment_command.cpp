@@ -1,0 +1,138 @@
+#include "base/error.h"
+#include "base/progress.h"
+#include "cli/command.h"
+#include "packing/bridges.h"
+#include "packing/tables.h"
+#include "segmentation/qa.h"
+#include "segmentation/segment.h"
+
+namespace pendular::cli {
+namespace {
+
+struct Options {
+  Common common;
+  fs::path volume, bridges, labels, qa;
+  double voxel_um = 0.0, min_diameter_um = 0.0;
+  std::vector<std::size_t> size;
+  std::string type, tone = "auto";
+  SegmentOptions segment;
+};
+
+ReadOptions reading(const Options& options) {
+  ReadOptions reading;
+  if (options.voxel_um > 0.0) reading.spacing = options.voxel_um * 1e-6;
+  if (options.size.empty() != options.type.empty())
+    throw BadUsage("headerless data needs both --size and --type");
+  if (!options.size.empty()) reading.raw_size = {options.size[0], options.size[1], options.size[2]};
+  reading.raw_type = options.type;
+  return reading;
+}
+
+SegmentOptions choices(const Options& options) {
+  SegmentOptions segment = options.segment;
+  segment.tone = options.tone == "bright" ? BeadTone::bright
+                 : options.tone == "dark" ? BeadTone::dark
+                                          : BeadTone::automatic;
+  if (options.min_diameter_um > 0.0) segment.least_diameter = options.min_diameter_um * 1e-6;
+  return segment;
+}
+
+nlohmann::ordered_json to_json(const Specimen& specimen) {
+  return {{"diameter_um", specimen.diameter * 1e6},
+          {"height_um", specimen.height * 1e6},
+          {"axis_x_um", specimen.axis_x * 1e6},
+          {"axis_y_um", specimen.axis_y * 1e6},
+          {"bottom_um", specimen.bottom * 1e6}};
+}
+
+nlohmann::ordered_json summary(const Volume& volume, const Segmentation& result,
+                               const Provenance& provenance) {
+  const auto& levels = result.levels;
+  nlohmann::ordered_json json = {
+      {"beads", result.beads.size()},
+      {"candidate_bridges", result.bridges.size()},
+      {"rejected", result.rejected},
+      {"irregular_grains", result.grains.size()},
+      {"mean_diameter_um", mean_diameter(result.beads) * 1e6},
+      {"specimen", result.specimen ? to_json(*result.specimen) : nlohmann::ordered_json(nullptr)},
+      {"porosity", result.porosity},
+      {"threshold", levels.threshold},
+      {"dark_level", levels.dark},
+      {"bright_level", levels.bright},
+      {"bead_tone", result.bright_beads ? "bright" : "dark"},
+      {"blur_um", result.blur * 1e6},
+      {"noise_over_edge", result.noise},
+      {"noise_correlation", result.noise_correlation},
+      {"volume",
+       {{"size", volume.size}, {"voxel_um", volume.spacing * 1e6}, {"pixel_type", pixel_type(volume)}}},
+      {"warnings", result.warnings},
+      {"provenance", pendular::to_json(provenance)}};
+  return json;
+}
+
+void run(const Options& options) {
+  apply(options.common);
+  const ReadOptions how = reading(options);
+  for (const fs::path& path : {options.common.out, options.bridges, options.labels})  // not after minutes of work
+    if (path.has_parent_path()) make_folder(path.parent_path());
+  const Provenance origin = provenance(options.common, {options.volume});
+  const Volume volume = read_volume(options.volume, how);
+  const Segmentation result = [&] {
+    try {
+      return segment(volume, choices(options));
+    } catch (const BadInput& error) {
+      throw BadInput(fmt::format("{}: {}", options.volume.string(), error.what()));
+    }
+  }();
+  for (const auto& warning : result.warnings) warn(warning);
+  write_beads(options.common.out, result.beads, origin);
+  if (!options.bridges.empty()) write_bridges(options.bridges, result.beads, result.bridges, origin);
+  if (!options.labels.empty()) write_volume(options.labels, label_volume(volume, result));
+  if (!options.qa.empty()) write_qa(options.qa, volume, result);
+  write_text(fs::path(options.common.out).replace_extension(".json"),
+             summary(volume, result, origin).dump(2) + "\n");
+  say(fmt::format("{} beads of {:.2f} um, {} candidate bridges, porosity {:.4f}", result.beads.size(),
+                  mean_diameter(result.beads) * 1e6, result.bridges.size(), result.porosity));
+}
+
+}  // namespace
+
+void add_segment(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand(
+      "segment",
+      "Raw tomogram to beads and candidate bridges.\n"
+      "Axis order x, y, z; voxel i has its centre at origin + i x spacing. Lengths in the header of a\n"
+      "MetaImage or NRRD count as um (an NRRD may name another unit); TIFF and PNG need --voxel-um.");
+  command
+      ->add_option("volume", options->volume,
+                   "MetaImage, NRRD, multi-page TIFF, folder of TIFF or PNG slices, or raw data")
+      ->required();
+  add_common(*command, options->common, "Beads (beads.csv); a summary goes beside it as .json");
+  command->add_option("--voxel-um", options->voxel_um, "Edge of a voxel, um; overrides the header's")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--size", options->size, "Raw data: voxels along x, y, z, as NX,NY,NZ")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(CLI::Range(1, 1 << 24));
+  command->add_option("--type", options->type, "Raw data: pixel type, little endian")
+      ->check(CLI::IsMember({"uint8", "uint16", "float"}));
+  command->add_option("--bridges", options->bridges, "Write candidate bridges (bridges.csv)");
+  command->add_option("--labels", options->labels, "Write each voxel's bead number (.mha)");
+  command->add_option("--qa", options->qa, "Write pictures to judge the result by into this folder");
+  command
+      ->add_option("--cutoff", options->segment.cutoff,
+                   "Largest gap of a candidate bridge over the mean diameter")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_option("--beads", options->tone, "Beads are brighter or darker than what surrounds them")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"auto", "bright", "dark"}));
+  command
+      ->add_option("--min-diameter-um", options->min_diameter_um,
+                   "Leave out beads smaller than this; without it, than 0.4 of the typical one")
+      ->check(CLI::PositiveNumber);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace pendular::cli

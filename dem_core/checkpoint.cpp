@@ -1,0 +1,144 @@
+#include "dem_core/checkpoint.h"
+
+#include <cstring>
+#include <type_traits>
+
+#include "base/error.h"
+
+namespace pendular {
+namespace {
+
+constexpr char kMagic[] = "pendular checkpoint 1\n";
+
+struct Writer {
+  std::string bytes;
+  template <typename T>
+  void scalar(const T& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  std::size_t length(std::size_t size) {
+    scalar(size);
+    return size;
+  }
+};
+
+struct Reader {
+  const std::string& bytes;
+  std::size_t at;
+  template <typename T>
+  void scalar(T& value) {
+    if (bytes.size() - at < sizeof value) throw BadInput("ends early");
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    at += sizeof value;
+  }
+  std::size_t length(std::size_t) {
+    std::size_t size = 0;
+    scalar(size);
+    if (size > bytes.size() - at) throw BadInput("ends early");
+    return size;
+  }
+};
+
+// Every field by name, once for reading and writing: what is forgotten here is lost at --resume.
+template <typename Archive, typename T>
+requires std::is_arithmetic_v<T>
+void visit(Archive& archive, T& value) {
+  archive.scalar(value);
+}
+
+template <typename Archive>
+void visit(Archive& archive, Vec3& v) {
+  for (int axis = 0; axis < 3; ++axis) archive.scalar(v[axis]);
+}
+
+template <typename Archive, typename T>
+void visit(Archive& archive, std::vector<T>& values) {
+  values.resize(archive.length(values.size()));
+  for (auto& value : values) visit(archive, value);
+}
+
+template <typename Archive, typename... Fields>
+void fields(Archive& archive, Fields&... all) {
+  (visit(archive, all), ...);
+}
+
+template <typename Archive>
+void visit(Archive& a, Pair& p) {
+  auto& [rest, touch, kn, kt, limit] = p.properties;
+  fields(a, p.i, p.j, p.bond, rest, touch, kn, kt, limit, p.history.bond_slip, p.history.contact_slip);
+}
+
+template <typename Archive>
+void visit(Archive& a, Bond& b) {
+  fields(a, b.i, b.j, b.broken);
+}
+
+template <typename Archive>
+void visit(Archive& a, Platen& p) {
+  fields(a, p.z, p.velocity, p.normal_sign, p.slip, p.force);
+}
+
+template <typename Archive>
+void visit(Archive& a, BreakEvent& e) {
+  fields(a, e.strain, e.i, e.j, e.place, e.stretch, e.shear, e.energy);
+}
+
+template <typename Archive>
+void visit(Archive& a, BeadStates& b) {
+  fields(a, b.position, b.velocity, b.spin, b.radius, b.mass, b.inertia, b.start);
+}
+
+template <typename Archive>
+void visit(Archive& a, LawParameters& l) {
+  fields(a, l.k_glass, l.kt_glass, l.friction, l.platen_friction, l.damping, l.one_spring,
+         l.bond_friction_limit);
+}
+
+template <typename Archive>
+void visit(Archive& a, Simulation& s) {
+  fields(a, s.law, s.dt, s.steps, s.beads, s.pairs, s.bonds, s.bottom, s.top, s.initial_height, s.section,
+         s.skin, s.listed_at, s.events, s.work.platen, s.work.damped, s.work.slipped, s.work.broken);
+}
+
+template <typename Archive>
+void visit(Archive& a, CurveRow& r) {
+  fields(a, r.strain, r.stress, r.stress_bottom, r.broken_bonds, r.kinetic, r.elastic, r.work, r.damped,
+         r.slipped, r.released, r.coordination);
+}
+
+template <typename Archive>
+void visit(Archive& a, RunState& s) {
+  fields(a, s.simulation, s.rows, s.frames_written, s.unloadings_done, s.unloading, s.force_at_reversal,
+         s.finished, s.open_row.strain, s.open_row.top, s.open_row.bottom, s.open_row.steps);
+}
+
+}  // namespace
+
+void write_checkpoint(const fs::path& path, const RunState& state, const std::string& identity) {
+  Writer writer;
+  visit(writer, const_cast<RunState&>(state));  // the writer only reads
+  write_text(path, kMagic + identity + "\n" + sha256(writer.bytes) + "\n" + writer.bytes);
+}
+
+RunState read_checkpoint(const fs::path& path, const std::string& identity) {
+  const std::string bytes = read_text(path);
+  const std::string magic = kMagic;
+  if (bytes.compare(0, magic.size(), magic) != 0)
+    bad_input("{}: is no checkpoint of this version of pendular", path.string());
+  const std::size_t digest_at = bytes.find('\n', magic.size()) + 1;
+  const std::size_t payload_at = digest_at + 65;
+  if (digest_at == 0 || payload_at > bytes.size()) bad_input("{}: checkpoint is cut short", path.string());
+  if (bytes.substr(digest_at, 64) != sha256(std::string_view(bytes).substr(payload_at)))
+    bad_input("{}: checkpoint is damaged: its checksum does not match", path.string());
+  if (bytes.substr(magic.size(), digest_at - 1 - magic.size()) != identity)
+    bad_input(
+        "{}: checkpoint belongs to another packing, sample, seed or version; resume with the same or start "
+        "anew",
+        path.string());
+  RunState state;
+  Reader reader{bytes, payload_at};
+  visit(reader, state);
+  return state;
+}
+
+}  // namespace pendular

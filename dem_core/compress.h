@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
+#include "base/provenance.h"
+#include "base/sample.h"
+#include "dem_core/curve.h"
+#include "packing/packing.h"
+
+namespace pendular {
+
+/// The packing that a realisation compresses. With beads.diameters = "drawn" every bead's diameter is drawn
+/// as the paper does and candidate bridges are those below the cut-off for the drawn diameters; measured
+/// bridges stay. With "measured" the packing is used as it is.
+Packing realise(const Packing& packing, const Sample& sample, std::uint64_t seed);
+
+struct CompressOptions {
+  bool resume = false;             ///< go on from the folder's checkpoint, if there is one
+  double checkpoint_every = 30.0;  ///< wall time between checkpoints, s
+  Provenance provenance;
+};
+
+struct CompressResult {
+  std::vector<CurveRow> rows;
+  nlohmann::ordered_json result;  ///< what result.json holds
+};
+
+/// Uniaxial compression between two platens to the sample's max_strain, into a run folder: curve.csv,
+/// events.csv, frames/, result.json, checkpoint. The packing is compressed as given; see realise().
+/// Interrupted by the user it keeps a checkpoint and throws Interrupted; where motion diverges it keeps the
+/// last good checkpoint and throws ComputationFailed.
+CompressResult compress(const Packing& packing, const Sample& sample, const fs::path& folder,
+                        const CompressOptions& options);
+
+}  // namespace pendular

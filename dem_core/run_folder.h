@@ -1,0 +1,28 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
+#include "base/provenance.h"
+#include "dem_core/run_state.h"
+
+namespace pendular {
+
+/// The files of a run folder (contract, "Tables"); each is written whole or not at all.
+
+/// curve.csv: strain,stress_pa,stress_bottom_pa,broken_bonds,kinetic_energy_j,…
+void write_curve(const fs::path& path, const std::vector<CurveRow>& rows, const Provenance& provenance);
+
+/// events.csv: one row per broken bond. Mode: what of Griffith's criterion was larger; "mixed" where neither
+/// makes up nine tenths of it; "compression" where the bond was shortened.
+void write_events(const fs::path& path, const Simulation& simulation,
+                  const std::vector<std::int64_t>& bead_ids, const Provenance& provenance);
+
+/// frames/frame_NNNN.vtp: beads with displacement, local strain, coordination and damage; bonds and contacts.
+void write_frame(const fs::path& path, const Simulation& simulation,
+                 const std::vector<std::int64_t>& bead_ids, double stress);
+
+/// result.json without the `performance` part, which alone differs between two runs of the same work.
+nlohmann::ordered_json result_json(const RunState& state, double mean_diameter, const Provenance& provenance);
+
+}  // namespace pendular

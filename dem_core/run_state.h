@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "dem_core/curve.h"
+#include "dem_core/simulation.h"
+
+namespace pendular {
+
+/// A compression test under way.
+struct RunState {
+  Simulation simulation;
+  std::vector<CurveRow> rows;
+  int frames_written = 0;
+  int unloadings_done = 0;
+  bool unloading = false;
+  double force_at_reversal = 0.0;  ///< on the fixed platen, N
+  bool finished = false;
+
+  /// Sums over the steps of the row under way.
+  struct OpenRow {
+    double strain = 0.0, top = 0.0, bottom = 0.0;
+    int steps = 0;
+  } open_row;
+};
+
+}  // namespace pendular

@@ -1,0 +1,215 @@
+#include "dem_core/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "micromechanics/bridge_body.h"
+#include "micromechanics/stiffness.h"
+#include "packing/neighbours.h"
+
+namespace pendular {
+namespace {
+
+double ball_mass(double density, double diameter) {
+  return density * M_PI / 6.0 * diameter * diameter * diameter;
+}
+
+BeadStates bead_states(const Packing& packing, double density) {
+  BeadStates states;
+  for (const auto& bead : packing.beads) {
+    const double radius = 0.5 * bead.diameter, mass = ball_mass(density, bead.diameter);
+    states.position.push_back(bead.centre);
+    states.radius.push_back(radius);
+    states.mass.push_back(mass);
+    states.inertia.push_back(0.4 * mass * radius * radius);
+  }
+  states.start = states.position;
+  states.velocity.assign(states.size(), Vec3::Zero());
+  states.spin.assign(states.size(), Vec3::Zero());
+  return states;
+}
+
+LawParameters law_parameters(const Sample& sample, const BondStiffness& bond) {
+  LawParameters law;
+  law.k_glass = sample.contact.stiffness_ratio * bond.normal;
+  law.kt_glass = sample.contact.stiffness_ratio * bond.tangential;
+  law.friction = sample.contact.friction;
+  law.platen_friction = sample.contact.platen_friction;
+  const double mean_mass = ball_mass(sample.beads.density, sample.beads.diameter);
+  // Critical damping of two mean beads in touch: 2 √(k m/2).
+  law.damping = sample.contact.damping_fraction * 2.0 * std::sqrt(law.k_glass * 0.5 * mean_mass);
+  law.one_spring = sample.contact.tangential_springs == "one";
+  law.bond_friction_limit = sample.contact.bond_friction_limit;
+  return law;
+}
+
+PairProperties bond_properties(const Packing& packing, const Bridge& bridge, const BondStiffness& bond,
+                               const Sample& sample) {
+  const Bead &a = packing.beads[bridge.i], &b = packing.beads[bridge.j];
+  const double smaller = std::min(a.diameter, b.diameter);
+  const double neck = std::min(sample.bridges.diameter, 0.99 * smaller);
+  PairProperties pair;
+  pair.rest = gap(a, b);
+  pair.touch = std::min(0.0, pair.rest);
+  pair.kn = bond.normal;
+  pair.kt = bond.tangential;
+  pair.break_limit = 2.0 * sample.bridges.interfacial_energy *
+                     rim_height(pair.rest, a.diameter, b.diameter, neck) / sample.bridges.youngs_modulus;
+  return pair;
+}
+
+void add_bonds(Simulation& simulation, const Packing& packing, const Sample& sample,
+               const BondStiffness& stiffness) {
+  for (const auto& bridge : packing.bridges) {
+    if (bridge.state != BridgeState::candidate && bridge.state != BridgeState::bridge) continue;
+    Pair pair;
+    pair.i = bridge.i;
+    pair.j = bridge.j;
+    pair.bond = static_cast<int>(simulation.bonds.size());
+    pair.properties = bond_properties(packing, bridge, stiffness, sample);
+    simulation.bonds.push_back({bridge.i, bridge.j, false});
+    simulation.pairs.push_back(pair);
+  }
+}
+
+/// Unbonded pairs that overlap in the measured packing: their overlap is measurement, not load.
+void add_overlapping_pairs(Simulation& simulation, const Packing& packing) {
+  std::vector<double> diameters;
+  for (double radius : simulation.beads.radius) diameters.push_back(2.0 * radius);
+  std::vector<Pair> unbonded;
+  for (const auto& [i, j] : pairs_within(simulation.beads.position, diameters, 0.0)) {
+    const auto place =
+        std::lower_bound(simulation.pairs.begin(), simulation.pairs.end(), IndexPair(i, j),
+                         [](const Pair& p, const IndexPair& q) { return IndexPair(p.i, p.j) < q; });
+    if (place != simulation.pairs.end() && place->i == i && place->j == j) continue;
+    Pair pair;
+    pair.i = i;
+    pair.j = j;
+    pair.properties.rest = pair.properties.touch = std::min(0.0, gap(packing.beads[i], packing.beads[j]));
+    unbonded.push_back(pair);
+  }
+  simulation.pairs.insert(simulation.pairs.end(), unbonded.begin(), unbonded.end());
+}
+
+void sort_pairs(std::vector<Pair>& pairs) {
+  std::sort(pairs.begin(), pairs.end(),
+            [](const Pair& a, const Pair& b) { return IndexPair(a.i, a.j) < IndexPair(b.i, b.j); });
+}
+
+void place_platens(Simulation& simulation, double speed) {
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  const auto& beads = simulation.beads;
+  for (std::size_t k = 0; k < beads.size(); ++k) {
+    lowest = std::min(lowest, beads.position[k].z() - beads.radius[k]);
+    highest = std::max(highest, beads.position[k].z() + beads.radius[k]);
+  }
+  const std::vector<Vec3> no_slip(beads.size(), Vec3::Zero());
+  simulation.bottom = {lowest, speed, 1.0, no_slip, 0.0};
+  simulation.top = {highest, 0.0, -1.0, no_slip, 0.0};
+  simulation.initial_height = highest - lowest;
+}
+
+/// A stated fraction of √(m_min/k_max) (guide: derived from the data, never asked of the user).
+double time_step(const Simulation& simulation, double fraction) {
+  const double lightest = *std::min_element(simulation.beads.mass.begin(), simulation.beads.mass.end());
+  double stiffest = simulation.law.k_glass;
+  for (const auto& pair : simulation.pairs) stiffest = std::max(stiffest, pair.properties.kn);
+  return fraction * std::sqrt(lightest / stiffest);
+}
+
+}  // namespace
+
+double platen_speed(const Sample& sample) {
+  if (sample.compression.speed_si) return *sample.compression.speed_si;
+  const double k_glass = sample.contact.stiffness_ratio * bond_stiffness(sample).normal;
+  return sample.compression.speed * sample.beads.diameter *
+         std::sqrt(k_glass / ball_mass(sample.beads.density, sample.beads.diameter));
+}
+
+Simulation build_simulation(const Packing& packing, const Sample& sample) {
+  if (packing.beads.size() < 2)
+    bad_input("packing: found {} bead(s), expected at least two", packing.beads.size());
+  const BondStiffness stiffness = bond_stiffness(sample);
+  Simulation simulation;
+  simulation.beads = bead_states(packing, sample.beads.density);
+  simulation.law = law_parameters(sample, stiffness);
+  add_bonds(simulation, packing, sample, stiffness);
+  if (simulation.bonds.empty()) bad_input("packing: found no bridge, expected at least one to compress");
+  sort_pairs(simulation.pairs);
+  add_overlapping_pairs(simulation, packing);
+  sort_pairs(simulation.pairs);
+  place_platens(simulation, platen_speed(sample));
+  simulation.section = 0.25 * M_PI * sample.specimen.diameter * sample.specimen.diameter;
+  simulation.skin = 0.05 * sample.beads.diameter;
+  simulation.dt = time_step(simulation, sample.contact.time_step_fraction);
+  list_pairs(simulation);
+  return simulation;
+}
+
+void list_pairs(Simulation& simulation) {
+  const auto& beads = simulation.beads;
+  std::vector<double> diameters;
+  for (double radius : beads.radius) diameters.push_back(2.0 * radius);
+  const auto near = pairs_within(beads.position, diameters, simulation.skin);
+  std::vector<Pair> listed;
+  listed.reserve(near.size() + simulation.bonds.size() / 8);
+  auto old = simulation.pairs.begin();
+  // A pair drops out where it is neither bonded nor near; one whose glass touches only after an initial
+  // overlap (touch < 0) is remembered whatever its distance.
+  auto keep_old_before = [&](const IndexPair& next) {
+    for (; old != simulation.pairs.end() && IndexPair(old->i, old->j) < next; ++old)
+      if (old->bond >= 0 || old->properties.touch < 0.0) listed.push_back(*old);
+  };
+  for (const auto& [i, j] : near) {
+    keep_old_before({i, j});
+    if (old != simulation.pairs.end() && old->i == i && old->j == j) {
+      listed.push_back(*old++);
+    } else {
+      Pair pair;
+      pair.i = i;
+      pair.j = j;
+      listed.push_back(pair);
+    }
+  }
+  keep_old_before({std::numeric_limits<int>::max(), 0});
+  simulation.pairs = std::move(listed);
+  simulation.listed_at = beads.position;
+}
+
+Energies energies(const Simulation& simulation) {
+  const auto& beads = simulation.beads;
+  Energies total;
+  for (std::size_t k = 0; k < beads.size(); ++k)
+    total.kinetic += 0.5 * (beads.mass[k] * beads.velocity[k].squaredNorm() +
+                            beads.inertia[k] * beads.spin[k].squaredNorm());
+  for (const auto& pair : simulation.pairs) {
+    const double distance = (beads.position[pair.i] - beads.position[pair.j]).norm();
+    total.elastic += pair_energy(distance - beads.radius[pair.i] - beads.radius[pair.j], pair.properties,
+                                 pair.history, simulation.law);
+  }
+  for (const Platen* platen : {&simulation.bottom, &simulation.top})
+    for (std::size_t k = 0; k < beads.size(); ++k) {
+      const double overlap = beads.radius[k] - platen->normal_sign * (beads.position[k].z() - platen->z);
+      if (overlap > 0.0)
+        total.elastic += 0.5 * simulation.law.k_glass * overlap * overlap +
+                         0.5 * simulation.law.kt_glass * platen->slip[k].squaredNorm();
+    }
+  return total;
+}
+
+BeadContacts bead_contacts(const Simulation& simulation) {
+  const auto& beads = simulation.beads;
+  BeadContacts count{std::vector<int>(beads.size()), std::vector<int>(beads.size())};
+  for (const auto& pair : simulation.pairs) {
+    const double distance = (beads.position[pair.i] - beads.position[pair.j]).norm();
+    if (pair.bond >= 0) ++count.bonds[pair.i], ++count.bonds[pair.j];
+    if (distance - beads.radius[pair.i] - beads.radius[pair.j] <= pair.properties.touch)
+      ++count.touching[pair.i], ++count.touching[pair.j];
+  }
+  return count;
+}
+
+}  // namespace pendular

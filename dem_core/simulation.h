@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/sample.h"
+#include "dem_core/pair.h"
+#include "packing/packing.h"
+
+namespace pendular {
+
+/// Beads of a running simulation, in the packing's order; SI. Velocities are half a step behind positions
+/// (leapfrog).
+struct BeadStates {
+  std::vector<Vec3> position, velocity, spin;
+  std::vector<double> radius, mass, inertia;
+  std::vector<Vec3> start;  ///< positions before the test
+  std::size_t size() const { return position.size(); }
+};
+
+/// A pair that may act: every bonded pair, and every pair closer than the neighbour list's skin.
+struct Pair {
+  int i = 0, j = 0;  ///< i < j
+  int bond = -1;     ///< index into Simulation::bonds while the bond stands
+  PairProperties properties;
+  PairHistory history;
+};
+
+/// A bond of the packing.
+struct Bond {
+  int i = 0, j = 0;
+  bool broken = false;
+};
+
+/// One horizontal platen: a rigid wall that only touches.
+struct Platen {
+  double z = 0.0;            ///< of the face, m
+  double velocity = 0.0;     ///< along z, m/s
+  double normal_sign = 1.0;  ///< +1: beads are above it; −1: below
+  std::vector<Vec3> slip;    ///< tangential displacement per bead since touch, m
+  double force = 0.0;        ///< on the platen, compression positive, N, in the last step
+};
+
+/// A bond that has broken, as events.csv reports it.
+struct BreakEvent {
+  double strain = 0.0;
+  int i = 0, j = 0;
+  Vec3 place;
+  double stretch = 0.0;  ///< Δr_n, m
+  double shear = 0.0;    ///< |δt|, m
+  double energy = 0.0;   ///< released, J
+};
+
+/// Running totals, J.
+struct Work {
+  double platen = 0.0;  ///< done by the platens
+  double damped = 0.0, slipped = 0.0, broken = 0.0;
+};
+
+struct Simulation {
+  LawParameters law;
+  double dt = 0.0;
+  std::int64_t steps = 0;
+  BeadStates beads;
+  std::vector<Pair> pairs;  ///< sorted by (i, j)
+  std::vector<Bond> bonds;
+  Platen bottom, top;
+  double initial_height = 0.0;  ///< distance of the platens at the start, m
+  double section = 0.0;         ///< initial cross-section, m²
+  double skin = 0.0;            ///< pairs are listed up to this gap, m
+  std::vector<Vec3> listed_at;  ///< positions when the pairs were listed
+  std::vector<BreakEvent> events;
+  Work work;
+
+  /// Engineering strain: platen displacement over initial height.
+  double strain() const { return (initial_height - (top.z - bottom.z)) / initial_height; }
+};
+
+/// Energies at this moment, J.
+struct Energies {
+  double kinetic = 0.0;
+  double elastic = 0.0;
+};
+
+/// A specimen between two platens that just touch it, at rest. The packing's diameters are used as they are;
+/// pairs that overlap at the start (within measurement error) do not push. Bonds are the packing's bridges
+/// in state `candidate` or `bridge`. BadInput where there is no bond or no bead.
+Simulation build_simulation(const Packing& packing, const Sample& sample);
+
+/// Platen speed that the sample asks for, m/s: given, or compression.speed × D √(k_glass/m) for the mean
+/// bead.
+double platen_speed(const Sample& sample);
+
+/// Lists anew the pairs within the skin; histories and bonds are kept.
+void list_pairs(Simulation& simulation);
+
+Energies energies(const Simulation& simulation);
+
+/// Number of standing bonds and of touching pairs, per bead: bonds first, touching second.
+struct BeadContacts {
+  std::vector<int> bonds, touching;
+};
+BeadContacts bead_contacts(const Simulation& simulation);
+
+}  // namespace pendular

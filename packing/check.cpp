@@ -1,0 +1,37 @@
+#include "packing/check.h"
+
+#include <cmath>
+#include <unordered_set>
+
+#include "base/error.h"
+#include "packing/bridges.h"
+#include "packing/neighbours.h"
+
+namespace pendular {
+
+void check_beads(const std::vector<Bead>& beads, const std::string& where) {
+  if (beads.empty()) bad_input("{}: found no bead, expected at least one", where);
+  std::unordered_set<std::int64_t> ids;
+  for (const auto& bead : beads) {
+    if (!ids.insert(bead.id).second)
+      bad_input("{}: bead {}: found the id twice, expected once", where, bead.id);
+    if (!bead.centre.allFinite()) bad_input("{}: bead {}: found a centre that is not finite", where, bead.id);
+    if (!std::isfinite(bead.diameter) || bead.diameter <= 0.0)
+      bad_input("{}: bead {}: found diameter {:.6g} um, expected a positive one", where, bead.id,
+                1e6 * bead.diameter);
+  }
+  // Spheres of half the size touch where the centres are half the mean diameter apart.
+  std::vector<double> halves = diameters_of(beads);
+  for (double& half : halves) half *= 0.5;
+  const auto overlaps = pairs_within(centres_of(beads), halves, 0.0);
+  if (overlaps.empty()) return;
+  const Bead& a = beads[static_cast<std::size_t>(overlaps.front().first)];
+  const Bead& b = beads[static_cast<std::size_t>(overlaps.front().second)];
+  bad_input(
+      "{}: beads {} and {}: found centres {:.6g} um apart with diameters {:.6g} and {:.6g} um, expected "
+      "beads beside "
+      "each other (one listed twice, or a wrong unit?)",
+      where, a.id, b.id, 1e6 * (a.centre - b.centre).norm(), 1e6 * a.diameter, 1e6 * b.diameter);
+}
+
+}  // namespace pendular

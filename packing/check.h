@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "packing/packing.h"
+
+namespace pendular {
+
+/// BadInput, opening with `where` and naming the beads, for: no bead, an id found twice, a centre or diameter
+/// that is not finite, a diameter that is not positive, and two centres closer than half the mean of their
+/// diameters (a bead listed twice, or columns in different units).
+void check_beads(const std::vector<Bead>& beads, const std::string& where);
+
+}  // namespace pendular

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "packing/packing.h"
+
+namespace pendular {
+
+/// Files that other programs share packings by. Lengths in m, but for csv and vtp (µm) and xyz (bead radii).
+enum class ExchangeFormat {
+  vtp,       ///< vtp.h: everything
+  csv,       ///< tables.h: beads
+  yade,      ///< Yade's ymport.text(), x_y_z_r: beads, numbered from 1 in the order of the file
+  lammps,    ///< LAMMPS read_data, units si, atom_style hybrid sphere bond: beads and bonds; reads sphere and
+             ///< bpm/sphere too
+  liggghts,  ///< LIGGGHTS read_data, units si, atom_style granular: beads
+  xyz,       ///< read only; lines of "id x y z" in bead radii, as of Finney's packing
+};
+
+/// vtp, csv, yade, lammps, liggghts or xyz; BadUsage for any other word.
+ExchangeFormat exchange_format(const std::string& word);
+
+/// By extension: .vtp, .csv, .txt (yade), .data or .lmp (lammps), .liggghts, .xyz; BadUsage for any other.
+ExchangeFormat exchange_format_of(const fs::path& path);
+
+/// Writes the packing as far as the format holds it. LAMMPS and LIGGGHTS need the bead density (kg/m3) and
+/// ids from 1 to 2147483647 (else BadInput). Bonds are the bridges in state bridge or candidate.
+void write_exchange(const fs::path& path, ExchangeFormat format, const Packing& packing, double density);
+
+/// What the file holds, checked by check_beads(). Bonds become bridges in state bridge. The specimen of any
+/// format but vtp is the smallest upright cylinder that encloses the beads. `diameter` (m) is needed by xyz
+/// only. Provenance is left empty but for vtp. BadInput with file and line.
+Packing read_exchange(const fs::path& path, ExchangeFormat format,
+                      std::optional<double> diameter = std::nullopt);
+
+}  // namespace pendular

@@ -1,0 +1,191 @@
+#include "segmentation/ball_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "segmentation/ball_profile.h"
+
+namespace pendular {
+namespace {
+
+/// A voxel of a shell, relative to the ball's first centre.
+struct ShellVoxel {
+  float x, y, z, grey;
+};
+
+struct Shell {
+  std::vector<ShellVoxel> samples;
+  double free_share = 0.0;
+};
+
+/// What hides a shell: the cones and bodies of the neighbours, and the container.
+class Hidden {
+ public:
+  Hidden(std::span<const GreyBall> balls, std::size_t own, std::span<const int> neighbours, const std::optional<Container>& container,
+         const FitSetting& setting)
+      : centre_(balls[own].centre), container_(container), margin_(setting.half_width) {
+    for (const int other : neighbours) {
+      const GreyBall& ball = balls[other];
+      const Vec3 to = ball.centre - centre_;
+      const double distance = to.norm();
+      const double gap = distance - ball.radius - balls[own].radius;
+      const double reach = ball.radius + margin_;
+      bodies_.push_back({to, reach * reach, to / distance, gap < setting.cone_gap ? std::cos(setting.cone) : 2.0});
+    }
+  }
+
+  /// `p` relative to the ball's centre, at distance r from it.
+  bool operator()(const Vec3& p, double r) const {
+    for (const Body& body : bodies_)
+      if (p.dot(body.direction) > body.cosine * r || (p - body.to).squaredNorm() < body.reach_squared) return true;
+    if (!container_) return false;
+    const double z = centre_.z() + p.z();
+    return std::hypot(centre_.x() + p.x() - container_->axis_x, centre_.y() + p.y() - container_->axis_y) >
+               container_->radius - margin_ ||
+           (container_->bottom && z < *container_->bottom + margin_) || (container_->top && z > *container_->top - margin_);
+  }
+
+ private:
+  struct Body {
+    Vec3 to;
+    double reach_squared;
+    Vec3 direction;
+    double cosine;  ///< of the cone's half-angle; above 1: no cone
+  };
+  Vec3 centre_;
+  std::vector<Body> bodies_;
+  const std::optional<Container>& container_;
+  double margin_;
+};
+
+template <typename T>
+Shell shell_of(std::span<const T> pixels, const Volume& volume, const GreyBall& ball, const Hidden& hidden, const FitSetting& setting) {
+  const double inner = std::max(0.5, ball.radius - setting.half_width), outer = ball.radius + setting.half_width;
+  std::array<long, 3> low, high;
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis] = static_cast<long>(std::ceil(ball.centre[axis] - outer));
+    high[axis] = static_cast<long>(std::floor(ball.centre[axis] + outer));
+  }
+  Shell shell;
+  std::size_t all = 0, free = 0;
+  const auto inside = [&](long k, int axis) { return k >= 0 && k < static_cast<long>(volume.size[axis]); };
+  for (long k = low[2]; k <= high[2]; ++k)
+    for (long j = low[1]; j <= high[1]; ++j)
+      for (long i = low[0]; i <= high[0]; ++i) {
+        const Vec3 p = Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)) - ball.centre;
+        const double square = p.squaredNorm();
+        if (square < inner * inner || square > outer * outer || all++ % setting.stride != 0) continue;
+        if (!inside(i, 0) || !inside(j, 1) || !inside(k, 2) || hidden(p, std::sqrt(square))) continue;
+        ++free;
+        const std::size_t n = (static_cast<std::size_t>(k) * volume.size[1] + static_cast<std::size_t>(j)) * volume.size[0] +
+                              static_cast<std::size_t>(i);
+        shell.samples.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), static_cast<float>(pixels[n])});
+      }
+  shell.free_share = all ? static_cast<double>(free * setting.stride) / static_cast<double>(all) : 0.0;
+  return shell;
+}
+
+// Order of the parameters: centre (relative to the shell's), radius, contrast, background, blur.
+using Parameters = Eigen::Matrix<double, 7, 1>;
+using Normal = Eigen::Matrix<double, 7, 7>;
+
+/// Sums of the normal equations of the least-squares problem at `q`.
+struct Equations {
+  Normal matrix = Normal::Zero();
+  Parameters right = Parameters::Zero();
+  double squares = 0.0;
+};
+
+Equations equations(const std::vector<ShellVoxel>& voxels, const Parameters& q, bool fit_blur) {
+  double matrix[7][7] = {}, right[7] = {}, squares = 0.0;
+  for (const ShellVoxel& voxel : voxels) {
+    const double dx = voxel.x - q[0], dy = voxel.y - q[1], dz = voxel.z - q[2];
+    const double r = std::sqrt(dx * dx + dy * dy + dz * dz);
+    const BallProfile profile = ball_profile(r, q[3], q[6]);
+    const double pull = -q[4] * profile.by_distance / r;
+    const double slope[7] = {pull * dx,     pull * dy, pull * dz, q[4] * profile.by_radius, profile.value, 1.0,
+                             q[4] * profile.by_blur};
+    const double residual = voxel.grey - q[5] - q[4] * profile.value;
+    for (int a = 0; a < 7; ++a) {
+      for (int b = 0; b < 7; ++b) matrix[a][b] += slope[a] * slope[b];
+      right[a] += slope[a] * residual;
+    }
+    squares += residual * residual;
+  }
+  Equations result{Normal::Zero(), Parameters::Zero(), squares};
+  const int n = fit_blur ? 7 : 6;
+  for (int a = 0; a < n; ++a) {
+    for (int b = 0; b < n; ++b) result.matrix(a, b) = matrix[a][b];
+    result.right[a] = right[a];
+  }
+  if (!fit_blur) result.matrix(6, 6) = 1.0;
+  return result;
+}
+
+/// The first guess of contrast and background: means well inside and well outside.
+void start_levels(const std::vector<ShellVoxel>& samples, double radius, Parameters& q) {
+  double in = 0.0, out = 0.0, inside = 0.0, outside = 0.0;
+  for (const ShellVoxel& sample : samples) {
+    const bool within = std::hypot(sample.x, sample.y, sample.z) < radius;
+    (within ? in : out) += 1.0;
+    (within ? inside : outside) += sample.grey;
+  }
+  q[5] = out > 0.0 ? outside / out : 0.0;
+  q[4] = in > 0.0 && out > 0.0 ? inside / in - q[5] : 0.0;
+}
+
+bool plausible(const Parameters& q, double radius) {
+  return q.allFinite() && q.head<3>().norm() < 0.7 * radius && q[3] > 0.4 * radius && q[3] < 2.0 * radius && q[6] > 0.1 &&
+         q[6] < 0.5 * radius;
+}
+
+}  // namespace
+
+BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::size_t own, std::span<const int> neighbours,
+                 const std::optional<Container>& container, const FitSetting& setting) {
+  const GreyBall& start = balls[own];
+  const Hidden hidden(balls, own, neighbours, container, setting);
+  const Shell shell = with_pixels(volume, [&](auto pixels) { return shell_of(pixels, volume, start, hidden, setting); });
+  BallFit fit{start, setting.blur, 0.0, 0.0, 0.0, shell.free_share, false};
+  constexpr std::size_t least_samples = 50;
+  if (shell.samples.size() < least_samples) return fit;
+
+  Parameters q;
+  q << 0.0, 0.0, 0.0, start.radius, 0.0, 0.0, setting.blur;
+  start_levels(shell.samples, start.radius, q);
+  Equations now = equations(shell.samples, q, setting.fit_blur);
+  double damping = 1e-3;
+  for (int iteration = 0; iteration < setting.iterations && !fit.converged && damping < 1e8; ++iteration) {
+    Normal damped = now.matrix;
+    damped.diagonal() *= 1.0 + damping;
+    const Parameters step = damped.ldlt().solve(now.right);
+    const Parameters next = q + step;
+    if (!plausible(next, start.radius)) {
+      damping *= 10.0;
+      continue;
+    }
+    fit.converged = step.head<4>().norm() < setting.tolerance;
+    const Equations then = equations(shell.samples, next, setting.fit_blur);
+    if (then.squares > now.squares) {
+      damping *= 10.0;
+      continue;
+    }
+    q = next;
+    now = then;
+    damping *= 0.1;
+  }
+  const double n = static_cast<double>(shell.samples.size());
+  const double variance = now.squares / (n - 6.0);
+  const Normal covariance = now.matrix.ldlt().solve(Normal::Identity()) * variance;
+  fit.ball = {start.centre + q.head<3>(), q[3], q[4], q[5]};
+  fit.blur = q[6];
+  fit.sigma_centre = std::sqrt(covariance.diagonal().head<3>().sum() / 3.0);
+  fit.sigma_radius = std::sqrt(covariance(3, 3));
+  fit.residual = std::sqrt(variance);
+  fit.converged = fit.converged && std::isfinite(fit.sigma_centre) && std::isfinite(fit.sigma_radius);
+  return fit;
+}
+
+}  // namespace pendular

@@ -1,0 +1,165 @@
+#include "segmentation/bead_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/interrupt.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "packing/neighbours.h"
+
+namespace pendular {
+namespace {
+
+constexpr double least_contrast = 0.4;  // of the classes' difference
+constexpr double least_separation = 0.7;  // of two balls, over the sum of their radii
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double median_radius(const std::vector<BallFit>& fits) {
+  std::vector<double> radii;
+  for (const BallFit& fit : fits) radii.push_back(fit.ball.radius);
+  return median(radii);
+}
+
+std::vector<GreyBall> balls_of(const std::vector<BallFit>& fits) {
+  std::vector<GreyBall> balls;
+  for (const BallFit& fit : fits) balls.push_back(fit.ball);
+  return balls;
+}
+
+std::vector<IndexPair> pairs_of(const std::vector<GreyBall>& balls, double max_gap) {
+  std::vector<Vec3> centres;
+  std::vector<double> diameters;
+  for (const GreyBall& ball : balls) {
+    centres.push_back(ball.centre);
+    diameters.push_back(2.0 * ball.radius);
+  }
+  return pairs_within(centres, diameters, max_gap);
+}
+
+/// One round: every ball fitted with the others where they were before.
+std::vector<BallFit> fit_round(const Volume& volume, const std::vector<GreyBall>& balls, const std::optional<Container>& container,
+                               const FitSetting& setting, const std::string& name) {
+  std::vector<std::vector<int>> neighbours(balls.size());
+  for (const auto& [i, j] : pairs_of(balls, std::max(setting.cone_gap, 2.0 * setting.half_width))) {
+    neighbours[static_cast<std::size_t>(i)].push_back(j);
+    neighbours[static_cast<std::size_t>(j)].push_back(i);
+  }
+  std::vector<BallFit> fits(balls.size());
+  Progress progress(name, static_cast<double>(balls.size()));
+  constexpr std::size_t batch = 64;
+  for (std::size_t first = 0; first < balls.size(); first += batch) {
+    stop_if_interrupted();
+    const std::size_t last = std::min(balls.size(), first + batch);
+    for_blocks(last - first, 1, [&](std::size_t n, std::size_t) {
+      fits[first + n] = fit_ball(volume, balls, first + n, neighbours[first + n], container, setting);
+    });
+    progress.update(static_cast<double>(last));
+  }
+  return fits;
+}
+
+bool outside(const Container& container, const Vec3& p) {
+  return std::hypot(p.x() - container.axis_x, p.y() - container.axis_y) > container.radius ||
+         (container.bottom && p.z() < *container.bottom) || (container.top && p.z() > *container.top);
+}
+
+bool outside(const Volume& volume, const Vec3& p) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (p[axis] < -0.5 || p[axis] > static_cast<double>(volume.size[static_cast<std::size_t>(axis)]) - 0.5) return true;
+  return false;
+}
+
+/// Drops fits that are no bead; of two that overlap, the one that fits worse.
+void reject(std::vector<BallFit>& fits, const Volume& volume, const GreyLevels& levels, const BeadSearch& search) {
+  const double needed = least_contrast * (levels.bright - levels.dark) * (search.bright ? 1.0 : -1.0);
+  std::erase_if(fits, [&](const BallFit& fit) {
+    return !fit.converged || fit.ball.contrast / needed < 1.0 || fit.ball.radius < search.least_radius ||
+           outside(volume, fit.ball.centre) || (search.container && outside(*search.container, fit.ball.centre));
+  });
+  std::vector<bool> dropped(fits.size(), false);
+  for (const auto& [a, b] : pairs_of(balls_of(fits), 0.0)) {
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    const double separation = (fits[i].ball.centre - fits[j].ball.centre).norm();
+    if (dropped[i] || dropped[j] || separation > least_separation * (fits[i].ball.radius + fits[j].ball.radius)) continue;
+    dropped[fits[i].residual < fits[j].residual ? j : i] = true;
+  }
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < fits.size(); ++n)
+    if (!dropped[n]) fits[kept++] = fits[n];
+  fits.resize(kept);
+}
+
+/// First fits to seeds, which may be off by a voxel or two: a wide shell, some of its voxels, the blur free.
+std::vector<BallFit> coarse_fits(const Volume& volume, const std::vector<GreyBall>& balls, const GreyLevels& levels,
+                                 const BeadSearch& search, double cutoff) {
+  std::vector<double> radii;
+  for (const GreyBall& ball : balls) radii.push_back(ball.radius);
+  const double radius = median(radii);
+  FitSetting setting;
+  setting.fit_blur = true;
+  setting.half_width = std::max(3.0, 0.2 * radius);
+  setting.cone_gap = 2.0 * cutoff * radius + 2.0;
+  setting.stride = radius > 15.0 ? 3 : 1;
+  setting.tolerance = 0.02;
+  auto fits = fit_round(volume, balls, search.container, setting, "first fits");
+  reject(fits, volume, levels, search);
+  return fits;
+}
+
+std::vector<GreyBall> balls_at(const std::vector<Seed>& seeds) {
+  std::vector<GreyBall> balls;
+  for (const Seed& seed : seeds) balls.push_back({seed.centre, seed.radius, 0.0, 0.0});
+  return balls;
+}
+
+std::vector<Seed> seeds_at(const std::vector<BallFit>& fits) {
+  std::vector<Seed> seeds;
+  for (const BallFit& fit : fits) seeds.push_back({fit.ball.centre, fit.ball.radius});
+  return seeds;
+}
+
+}  // namespace
+
+FittedBeads fit_beads(const Volume& volume, const GreyLevels& levels, const BeadSearch& search, double cutoff) {
+  FittedBeads result;
+  std::vector<BallFit> fits = coarse_fits(volume, balls_at(search.seeds), levels, search, cutoff);
+  std::size_t tried = search.seeds.size();
+  const auto missed = search_missed(search.mask, seeds_at(fits), std::max(search.least_radius, 0.5 * median_radius(fits)));
+  if (!missed.empty()) {
+    tried += missed.size();
+    auto balls = balls_of(fits);
+    const auto more = balls_at(missed);
+    balls.insert(balls.end(), more.begin(), more.end());
+    fits = coarse_fits(volume, balls, levels, search, cutoff);
+  }
+  if (fits.empty()) return result;
+
+  std::vector<double> blurs;
+  for (const BallFit& fit : fits) blurs.push_back(fit.blur);
+  result.blur = median(blurs);
+  FitSetting setting;
+  setting.blur = result.blur;
+  setting.tolerance = 1e-2;
+  setting.half_width = std::max(2.0, 3.0 * result.blur);
+  setting.cone_gap = 2.0 * cutoff * median_radius(fits) + 0.5;
+  for (const char* name : {"second fits", "last fits"}) {
+    setting.tolerance *= 0.1;
+    fits = fit_round(volume, balls_of(fits), search.container, setting, name);
+    reject(fits, volume, levels, search);
+  }
+  result.noise = measure_noise(volume, balls_of(fits), setting.half_width);
+  result.grains = search_missed(search.mask, seeds_at(fits), search.least_radius);
+  result.fits = std::move(fits);
+  result.rejected = tried - result.fits.size();
+  return result;
+}
+
+}  // namespace pendular

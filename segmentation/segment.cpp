@@ -1,0 +1,133 @@
+#include "segmentation/segment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/parallel.h"
+#include "packing/bridges.h"
+#include "packing/statistics.h"
+#include "segmentation/bead_fit.h"
+#include "segmentation/rows.h"
+
+namespace pendular {
+namespace {
+
+double quality_of(const BallFit& fit, const Noise& noise) {
+  constexpr double half_quality = 0.15;
+  const double misfit_squared = std::max(0.0, fit.residual * fit.residual - noise.sd * noise.sd) / (fit.ball.contrast * fit.ball.contrast);
+  return 1.0 / (1.0 + misfit_squared / (half_quality * half_quality));
+}
+
+std::vector<Bead> beads_of(const Volume& volume, const FittedBeads& fitted) {
+  std::vector<double> radii;
+  for (const BallFit& fit : fitted.fits) radii.push_back(fit.ball.radius);
+  std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2), radii.end());
+  const VarianceInflation inflation = variance_inflation(fitted.noise, radii[radii.size() / 2], fitted.blur);
+  std::vector<Bead> beads;
+  for (const BallFit& fit : fitted.fits) {
+    Bead bead;
+    bead.centre = volume.origin + volume.spacing * fit.ball.centre;
+    bead.diameter = 2.0 * volume.spacing * fit.ball.radius;
+    bead.sigma_centre = volume.spacing * fit.sigma_centre * std::sqrt(inflation.centre);
+    bead.sigma_diameter = 2.0 * volume.spacing * fit.sigma_radius * std::sqrt(inflation.radius);
+    bead.quality = quality_of(fit, fitted.noise);
+    beads.push_back(bead);
+  }
+  std::sort(beads.begin(), beads.end(), [](const Bead& a, const Bead& b) {
+    return std::make_tuple(a.centre.z(), a.centre.y(), a.centre.x()) < std::make_tuple(b.centre.z(), b.centre.y(), b.centre.x());
+  });
+  for (std::size_t n = 0; n < beads.size(); ++n) beads[n].id = static_cast<std::int64_t>(n) + 1;
+  return beads;
+}
+
+std::vector<Bead> grains_of(const Volume& volume, const FittedBeads& fitted) {
+  std::vector<Bead> grains;
+  for (const Seed& seed : fitted.grains) {
+    Bead grain;
+    grain.id = static_cast<std::int64_t>(fitted.fits.size() + grains.size()) + 1;
+    grain.centre = volume.origin + volume.spacing * seed.centre;
+    grain.diameter = 2.0 * volume.spacing * seed.radius;
+    grain.quality = 0.0;
+    grains.push_back(grain);
+  }
+  return grains;
+}
+
+void add_warnings(Segmentation& result) {
+  if (result.grains.size() > result.beads.size())
+    result.warnings.push_back(fmt::format("{} bodies have no ball's edge, against {} beads: irregular grains, or the other tone (--beads)?",
+                                          result.grains.size(), result.beads.size()));
+  if (!result.specimen) result.warnings.push_back("no container seen: porosity is of the whole picture, walls are not known");
+}
+
+/// The container's inside; where the beads end free, up to the outermost bead.
+Specimen specimen_of(const Volume& volume, const Container& container, const std::vector<Bead>& beads) {
+  double lowest = beads.front().centre.z(), highest = lowest;
+  for (const Bead& bead : beads) {
+    lowest = std::min(lowest, bead.centre.z() - 0.5 * bead.diameter);
+    highest = std::max(highest, bead.centre.z() + 0.5 * bead.diameter);
+  }
+  const auto place = [&](double voxel, int axis) { return volume.origin[axis] + volume.spacing * voxel; };
+  const double last = static_cast<double>(volume.size[2]) - 0.5;
+  Specimen specimen;
+  specimen.diameter = 2.0 * container.radius * volume.spacing;
+  specimen.axis_x = place(container.axis_x, 0);
+  specimen.axis_y = place(container.axis_y, 1);
+  specimen.bottom = container.bottom ? place(*container.bottom, 2) : std::max(lowest, place(-0.5, 2));
+  specimen.height = (container.top ? place(*container.top, 2) : std::min(highest, place(last, 2))) - specimen.bottom;
+  return specimen;
+}
+
+/// Beads within one mean diameter of the picture's sides.
+void flag_cut(const Volume& volume, std::vector<Bead>& beads) {
+  const double margin = mean_diameter(beads);
+  for (Bead& bead : beads)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = volume.origin[axis] - 0.5 * volume.spacing;
+      const double high = low + volume.spacing * static_cast<double>(volume.size[axis]);
+      bead.boundary |= bead.centre[axis] < low + margin || bead.centre[axis] > high - margin;
+    }
+}
+
+void flag_boundaries(const Volume& volume, Segmentation& result) {
+  flag_cut(volume, result.beads);
+  if (!result.specimen) return;
+  Packing packing{result.beads, {}, *result.specimen, {}};
+  flag_boundary(packing);
+  for (std::size_t n = 0; n < result.beads.size(); ++n) result.beads[n].boundary |= packing.beads[n].boundary;
+}
+
+}  // namespace
+
+Segmentation segment(const Volume& volume, const SegmentOptions& options) {
+  for (const std::size_t n : volume.size)
+    if (n < 16) bad_input("volume of {} x {} x {} voxels, expected at least 16 along each axis", volume.size[0], volume.size[1], volume.size[2]);
+  Segmentation result;
+  result.levels = grey_levels(histogram_of(volume));
+  stop_if_interrupted();
+  std::optional<double> least_radius;
+  if (options.least_diameter) least_radius = 0.5 * *options.least_diameter / volume.spacing;
+  const BeadSearch search = search_beads(volume, result.levels, options.tone, least_radius);
+  const FittedBeads fitted = fit_beads(volume, result.levels, search, options.cutoff);
+  if (fitted.fits.empty())
+    bad_input("no beads found: {} bodies looked at in a volume of {} x {} x {} voxels, none with the edge of a ball", search.seeds.size(),
+              volume.size[0], volume.size[1], volume.size[2]);
+  result.bright_beads = search.bright;
+  result.beads = beads_of(volume, fitted);
+  if (search.container) result.specimen = specimen_of(volume, *search.container, result.beads);
+  flag_boundaries(volume, result);
+  result.bridges = candidate_bridges(result.beads, options.cutoff * mean_diameter(result.beads));
+  result.porosity = porosity_of(volume, result.specimen, result.levels.threshold, result.bright_beads);
+  result.blur = fitted.blur * volume.spacing;
+  result.noise = fitted.noise.sd / (result.levels.bright - result.levels.dark);
+  result.noise_correlation = fitted.noise.correlation.size() > 1 ? fitted.noise.correlation[1] : 0.0;
+  result.rejected = fitted.rejected;
+  result.grains = grains_of(volume, fitted);
+  add_warnings(result);
+  return result;
+}
+
+}  // namespace pendular

@@ -1,0 +1,52 @@
+#include "segmentation/volume.h"
+
+#include "segmentation/itk_images.h"
+
+#include <itkMetaImageIO.h>
+
+#include "base/error.h"
+
+namespace pendular {
+namespace {
+
+itk::IOComponentEnum component(const Volume& volume) {
+  constexpr itk::IOComponentEnum components[] = {itk::IOComponentEnum::UCHAR, itk::IOComponentEnum::USHORT,
+                                                 itk::IOComponentEnum::FLOAT, itk::IOComponentEnum::UINT};
+  return components[volume.pixels.index()];
+}
+
+}  // namespace
+
+std::string pixel_type(const Volume& volume) {
+  constexpr const char* names[] = {"uint8", "uint16", "float", "uint32"};
+  return names[volume.pixels.index()];
+}
+
+void write_volume(const fs::path& path, const Volume& volume) {
+  if (path.extension() != ".mha") throw BadUsage(fmt::format("{}: found a name that does not end in .mha, expected .mha", path.string()));
+  write_atomically(path, [&](const fs::path& temporary) {
+    auto io = itk::MetaImageIO::New();
+    itk::ImageIORegion region(3);
+    io->SetNumberOfDimensions(3);
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      io->SetDimensions(axis, volume.size[axis]);
+      io->SetSpacing(axis, volume.spacing * 1e6);
+      io->SetOrigin(axis, volume.origin[axis] * 1e6);
+      region.SetIndex(axis, 0);
+      region.SetSize(axis, volume.size[axis]);
+    }
+    io->SetIORegion(region);
+    io->SetNumberOfComponents(1);
+    io->SetPixelType(itk::IOPixelEnum::SCALAR);
+    io->SetComponentType(component(volume));
+    itk::EncapsulateMetaData<std::string>(io->GetMetaDataDictionary(), "LengthUnit", "um");
+    io->SetFileName(temporary.string());
+    try {
+      with_pixels(volume, [&](auto pixels) { io->Write(pixels.data()); });
+    } catch (const itk::ExceptionObject& error) {
+      throw ComputationFailed(fmt::format("{}: cannot be written: {}", path.string(), error.GetDescription()));
+    }
+  });
+}
+
+}  // namespace pendular

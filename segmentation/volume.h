@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/files.h"
+#include "base/vec3.h"
+
+namespace pendular {
+
+/// A three-dimensional image of cubic voxels in its native pixel type, x running fastest. Voxel (i, j, k) has
+/// its centre at origin + spacing·(i, j, k).
+struct Volume {
+  using Pixels = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>,
+                              std::vector<std::uint32_t>>;
+
+  std::array<std::size_t, 3> size{};  ///< voxels along x, y, z
+  double spacing = 1e-6;              ///< edge of a voxel, m
+  Vec3 origin = Vec3::Zero();         ///< centre of voxel (0, 0, 0), m
+  Pixels pixels;                      ///< size[0]·size[1]·size[2] of them
+
+  std::size_t voxels() const { return size[0] * size[1] * size[2]; }
+};
+
+/// Calls f with the pixels as a std::span<const T> of their native type.
+template <typename Function>
+decltype(auto) with_pixels(const Volume& volume, Function&& f) {
+  return std::visit([&](const auto& pixels) -> decltype(auto) { return f(std::span(pixels)); }, volume.pixels);
+}
+
+/// "uint8", "uint16", "float" or "uint32".
+std::string pixel_type(const Volume& volume);
+
+/// What a file does not say of itself.
+struct ReadOptions {
+  std::optional<double> spacing;                         ///< m; overrides the file's
+  std::optional<std::array<std::size_t, 3>> raw_size;    ///< of a headerless file
+  std::string raw_type;                                  ///< of a headerless file: uint8, uint16 or float, little endian
+};
+
+/// Reads MetaImage (.mha, .mhd), NRRD, multi-page TIFF, a folder of TIFF or PNG slices in the natural order of
+/// their names (z rising), or, with `raw_size`, a headerless file. Lengths in a header count as µm, unless an
+/// NRRD names another unit; spacing 1 or none means unknown: 1 µm, with a warning.
+/// BadInput, in one line, for whatever does not hold a grey volume of cubic voxels: truncated data, a header
+/// that does not match it, a missing slice, slices of several sizes, colours, other pixel types, NaN or
+/// infinity, or one grey value throughout.
+Volume read_volume(const fs::path& path, const ReadOptions& options = {});
+
+/// Writes a MetaImage (.mha) whole or not at all, uncompressed, lengths in µm.
+void write_volume(const fs::path& path, const Volume& volume);
+
+}  // namespace pendular

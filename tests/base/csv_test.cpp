@@ -1,0 +1,60 @@
+#include "base/csv.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "base/error.h"
+#include "scratch.h"
+
+namespace pendular {
+namespace {
+
+using test::ScratchFolder;
+
+TEST(Csv, ReadsColumnsByNameInAnyOrder) {
+  ScratchFolder folder;
+  write_text(folder / "t.csv", "# a comment\nb,unknown, a \n2,x,1\n# between\n4.5e-3,y,-3\n");
+  const CsvTable table = read_csv(folder / "t.csv", {"a", "b"}, {"c"});
+  EXPECT_EQ(table.rows(), 2u);
+  EXPECT_EQ(table.numbers("a"), (std::vector<double>{1.0, -3.0}));
+  EXPECT_EQ(table.numbers("b"), (std::vector<double>{2.0, 4.5e-3}));
+  EXPECT_FALSE(table.has("c"));
+}
+
+struct BadTable {
+  const char* name;
+  const char* text;
+  const char* expected;  ///< part of the message
+};
+
+class CsvBadInput : public testing::TestWithParam<BadTable> {};
+
+TEST_P(CsvBadInput, SaysWhereAndWhat) {
+  ScratchFolder folder;
+  write_text(folder / "t.csv", GetParam().text);
+  try {
+    read_csv(folder / "t.csv", {"a", "b"}).numbers("a");
+    FAIL() << "accepted";
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find(GetParam().expected), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("t.csv"), std::string::npos) << error.what();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, CsvBadInput,
+    testing::Values(BadTable{"missing", "a,c\n1,2\n", "column b is missing"},
+                    BadTable{"word", "a,b\n1,2\nx,2\n", ":3: column a: found \"x\""},
+                    BadTable{"nan", "a,b\nnan,2\n", "finite"}, BadTable{"inf", "a,b\n-inf,2\n", "finite"},
+                    BadTable{"trailing", "a,b\n1.5um,2\n", "1.5um"}, BadTable{"short", "a,b\n1\n", "column"},
+                    BadTable{"long", "a,b\n1,2,3\n", "column"}, BadTable{"twice", "a,a,b\n1,2,3\n", "a"},
+                    BadTable{"empty", "", "Header missing"}, BadTable{"blank", "a,b\n,2\n", "found \"\""}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(Csv, MissingFile) {
+  EXPECT_THROW(read_csv("/nonexistent/t.csv", {"a"}), BadInput);
+}
+
+}  // namespace
+}  // namespace pendular

@@ -1,0 +1,189 @@
+#include "segmentation/segment.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "balls.h"
+#include "base/error.h"
+#include "packing/bridges.h"
+#include "packing/generate.h"
+#include "scratch.h"
+#include "segmentation/phantom.h"
+#include "segmentation/qa.h"
+
+namespace pendular {
+namespace {
+
+/// Measured against true beads, lengths in voxels.
+struct Comparison {
+  int missed = 0, invented = 0;
+  double centre_rms = 0.0;  ///< per axis
+  double diameter_bias = 0.0;
+  double pull = 0.0;        ///< rms error of the centres over their standard error
+};
+
+Comparison compare(const std::vector<Bead>& truth, const std::vector<Bead>& found, double voxel) {
+  Comparison result;
+  std::vector<bool> used(found.size(), false);
+  double n = 0.0, squares = 0.0, difference = 0.0, pulls = 0.0;
+  for (const Bead& bead : truth) {
+    const auto nearest = std::min_element(found.begin(), found.end(), [&](const Bead& a, const Bead& b) {
+      return (a.centre - bead.centre).squaredNorm() < (b.centre - bead.centre).squaredNorm();
+    });
+    const double error = nearest == found.end() ? bead.diameter : (nearest->centre - bead.centre).norm();
+    if (error > 0.25 * bead.diameter) {
+      ++result.missed;
+      continue;
+    }
+    used[static_cast<std::size_t>(nearest - found.begin())] = true;
+    n += 1.0;
+    squares += error * error / 3.0;
+    pulls += error * error / 3.0 / (nearest->sigma_centre * nearest->sigma_centre);
+    difference += nearest->diameter - bead.diameter;
+  }
+  result.invented = static_cast<int>(std::count(used.begin(), used.end(), false));
+  result.centre_rms = std::sqrt(squares / n) / voxel;
+  result.diameter_bias = difference / n / voxel;
+  result.pull = std::sqrt(pulls / n);
+  return result;
+}
+
+struct PhantomCase {
+  const char* name;
+  double voxel_um, noise, correlated_noise, contrast, centre_rms, bias;
+};
+
+class OnPhantom : public testing::TestWithParam<PhantomCase> {};
+
+TEST_P(OnPhantom, FindsEveryBead) {
+  const PhantomCase& c = GetParam();
+  Sample sample;
+  sample.specimen.diameter = sample.specimen.height = 1.2e-3;
+  sample.specimen.volume_fraction = 0.57;
+  sample.phantom.voxel = c.voxel_um * 1e-6;
+  sample.phantom.noise = c.noise;
+  sample.phantom.correlated_noise = c.correlated_noise;
+  sample.phantom.polymer_contrast = c.contrast;
+  Packing packing = generate_packing(sample, 1);
+  packing.bridges = candidate_bridges(packing.beads, sample.bridges.cutoff * mean_diameter(packing.beads));
+  draw_neck_diameters(packing, sample, 1);
+  const Volume volume = make_phantom(packing, sample.phantom, 1);
+  const Segmentation found = segment(volume);
+  const Comparison result = compare(packing.beads, found.beads, volume.spacing);
+  EXPECT_EQ(result.missed, 0);
+  EXPECT_EQ(result.invented, 0);
+  EXPECT_LT(result.centre_rms, c.centre_rms);
+  EXPECT_LT(std::abs(result.diameter_bias), c.bias);
+  EXPECT_NEAR(result.pull, 1.0, 0.35);
+  EXPECT_TRUE(found.bright_beads);
+  EXPECT_NEAR(found.blur / volume.spacing, std::hypot(1.0, std::sqrt(1.0 / 12.0)), 0.05);
+  ASSERT_TRUE(found.specimen);
+  const double voxel = volume.spacing;
+  EXPECT_NEAR(found.specimen->diameter, packing.specimen.diameter, 1.5 * voxel);
+  EXPECT_NEAR(found.specimen->height, packing.specimen.height, 1.5 * voxel);
+  EXPECT_NEAR(found.specimen->axis_x, packing.specimen.axis_x, 0.5 * voxel);
+  EXPECT_NEAR(found.specimen->bottom, packing.specimen.bottom, voxel);
+}
+
+INSTANTIATE_TEST_SUITE_P(Segment, OnPhantom,
+                         testing::Values(PhantomCase{"Across40", 5.0, 0.1, 0.0, 0.3, 0.02, 0.02},
+                                         PhantomCase{"Across20", 10.0, 0.1, 0.0, 0.3, 0.04, 0.05},
+                                         PhantomCase{"Noisy", 8.0, 0.3, 0.0, 0.3, 0.1, 0.1},
+                                         PhantomCase{"CorrelatedNoise", 8.0, 0.05, 0.1, 0.3, 0.1, 0.1},
+                                         PhantomCase{"BrightPolymer", 8.0, 0.1, 0.0, 0.45, 0.05, 0.05}),
+                         [](const auto& which) { return which.param.name; });
+
+TEST(Segment, LabelsBelongToTheNearestBall) {
+  const std::vector<test::TrueBall> balls = {{Vec3(20, 20, 20), 9.0}, {Vec3(40, 20, 20), 10.0}, {Vec3(30, 38, 22), 9.5}};
+  const Volume volume = test::ball_volume({60, 60, 44}, balls, 1.0, 0.05);
+  const Segmentation found = segment(volume);
+  ASSERT_EQ(found.beads.size(), 3u);
+  EXPECT_TRUE(found.grains.empty());
+  EXPECT_FALSE(found.specimen);
+  const Volume labels = label_volume(volume, found);
+  const auto& pixels = std::get<std::vector<std::uint16_t>>(labels.pixels);
+  for (std::size_t n = 0; n < found.beads.size(); ++n) {
+    const double count = static_cast<double>(std::count(pixels.begin(), pixels.end(), n + 1));
+    const double radius = 0.5 * found.beads[n].diameter / volume.spacing;
+    EXPECT_NEAR(count / (4.0 / 3.0 * M_PI * std::pow(radius, 3)), 1.0, 0.02);
+  }
+  const test::ScratchFolder folder;
+  write_qa(folder.path(), volume, found);
+  for (const char* name : {"slice_xy_1.png", "slice_xz_3.png", "residual_xy.png", "fractional_positions.png"})
+    EXPECT_GT(fs::file_size(folder / name), 500u) << name;
+}
+
+TEST(Segment, FindsDarkBeadsByItself) {
+  const std::vector<test::TrueBall> balls = {{Vec3(20, 20, 20), 9.0}, {Vec3(40, 20, 22), 6.0}, {Vec3(30, 38, 22), 9.5}};
+  const Segmentation found = segment(test::ball_volume({60, 60, 44}, balls, 1.0, 0.05, 40000.0, -20000.0));
+  EXPECT_FALSE(found.bright_beads);
+  EXPECT_EQ(found.beads.size(), 3u);
+}
+
+TEST(Segment, NoBeadsIsBadInput) {
+  EXPECT_THROW(segment(test::ball_volume({40, 40, 40}, {}, 1.0, 0.3)), BadInput);
+  EXPECT_THROW(segment(test::ball_volume({8, 40, 40}, {{Vec3(4, 20, 20), 3.0}}, 1.0, 0.0)), BadInput);
+}
+
+TEST(Segment, FinneysPacking) {
+  const auto path = test::shared_data("finney/FinneyPack.txt");
+  if (!path) GTEST_SKIP() << "no trial data (finney/FinneyPack.txt)";
+  constexpr double radius = 10.0;
+  std::vector<test::TrueBall> balls;
+  std::ifstream in(*path);
+  Vec3 low = Vec3::Constant(1e9), high = -low;
+  for (double id, x, y, z; in >> id >> x >> y >> z;) {
+    balls.push_back({radius * Vec3(x, y, z), radius});
+    low = low.cwiseMin(balls.back().centre);
+    high = high.cwiseMax(balls.back().centre);
+  }
+  ASSERT_EQ(balls.size(), 4021u);
+  std::vector<Bead> truth;
+  for (auto& ball : balls) {
+    ball.centre += Vec3::Constant(radius + 4.0) - low;
+    truth.push_back({});
+    truth.back().centre = 1e-6 * ball.centre;
+    truth.back().diameter = 2e-6 * radius;
+  }
+  std::array<std::size_t, 3> size;
+  for (int axis = 0; axis < 3; ++axis) size[axis] = static_cast<std::size_t>(high[axis] - low[axis] + 2.0 * radius + 9.0);
+  const Segmentation found = segment(test::ball_volume(size, balls, 1.0, 0.05));
+  const Comparison result = compare(truth, found.beads, 1e-6);
+  EXPECT_EQ(result.missed, 0);
+  EXPECT_EQ(result.invented, 0);
+  EXPECT_LT(result.centre_rms, 0.05);
+  EXPECT_LT(std::abs(result.diameter_bias), 0.05);
+}
+
+TEST(Segment, SteelOfIrregularGrains) {
+  const auto raw = test::shared_data("steel_ct/steel_raw_100.mha"), truth = test::shared_data("steel_ct/steel_bw_pore_white_100.mha");
+  if (!raw || !truth) GTEST_SKIP() << "no trial data (steel_ct)";
+  SegmentOptions options;
+  options.tone = BeadTone::bright;
+  const Volume volume = read_volume(*raw);
+  const Segmentation found = segment(volume, options);
+  EXPECT_NEAR(found.porosity, 0.380, 0.01);
+  const Volume labels = label_volume(volume, found), mask = read_volume(*truth);
+  const auto& ours = std::get<std::vector<std::uint16_t>>(labels.pixels);
+  const auto& pores = std::get<std::vector<std::uint8_t>>(mask.pixels);
+  double both = 0.0, either = 0.0;
+  for (std::size_t n = 0; n < ours.size(); ++n) {
+    both += ours[n] > 0 && pores[n] == 0;
+    either += (ours[n] > 0) + (pores[n] == 0);
+  }
+  EXPECT_GT(2.0 * both / either, 0.9);  // Dice
+}
+
+TEST(Segment, AirVoidsInCement) {
+  const auto path = test::shared_data("cement_ct/cement_128x128x128.tif");
+  if (!path) GTEST_SKIP() << "no trial data (cement_ct)";
+  const Segmentation found = segment(read_volume(*path));
+  EXPECT_FALSE(found.bright_beads);
+  EXPECT_GT(found.beads.size(), 200u);
+  EXPECT_LT(found.levels.dark, 40.0);
+  EXPECT_NEAR(found.levels.bright, 101.0, 3.0);
+}
+
+}  // namespace
+}  // namespace pendular

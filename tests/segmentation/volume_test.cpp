@@ -1,0 +1,146 @@
+#include "segmentation/volume.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+
+#include "base/error.h"
+#include "scratch.h"
+
+namespace pendular {
+namespace {
+
+using test::ScratchFolder;
+
+Volume ramp() {
+  Volume volume{{5, 4, 3}, 2.5e-6, Vec3(1e-6, 2e-6, 3e-6), {}};
+  std::vector<std::uint16_t> pixels(volume.voxels());
+  for (std::size_t n = 0; n < pixels.size(); ++n) pixels[n] = static_cast<std::uint16_t>(1000 + n);
+  volume.pixels = pixels;
+  return volume;
+}
+
+std::string error_of(const fs::path& path, const ReadOptions& options = {}) {
+  try {
+    read_volume(path, options);
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void write_bytes(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+
+std::string bytes_of(const Volume& volume) {
+  return with_pixels(volume, [](auto pixels) {
+    return std::string(reinterpret_cast<const char*>(pixels.data()), pixels.size_bytes());
+  });
+}
+
+TEST(Volume, MetaImageComesBackAsItWas) {
+  const ScratchFolder folder;
+  for (const Volume::Pixels& pixels : std::vector<Volume::Pixels>{
+           std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8}, std::vector<std::uint16_t>{1, 2, 3, 4, 5, 6, 7, 60000},
+           std::vector<float>{1, 2, 3, 4, 5, 6, 7, -1.5f}, std::vector<std::uint32_t>{1, 2, 3, 4, 5, 6, 7, 70000}}) {
+    const Volume volume{{2, 2, 2}, 2.5e-6, Vec3(1e-6, 2e-6, -3e-6), pixels};
+    write_volume(folder / "a.mha", volume);
+    const Volume read = read_volume(folder / "a.mha");
+    EXPECT_EQ(read.pixels, volume.pixels);
+    EXPECT_EQ(read.size, volume.size);
+    EXPECT_DOUBLE_EQ(read.spacing, volume.spacing);
+    EXPECT_NEAR((read.origin - volume.origin).norm(), 0.0, 1e-18);
+  }
+}
+
+TEST(Volume, HeaderlessData) {
+  const ScratchFolder folder;
+  const Volume volume = ramp();
+  write_bytes(folder / "a.raw", bytes_of(volume));
+  const Volume read = read_volume(folder / "a.raw", {3e-6, {{5, 4, 3}}, "uint16"});
+  EXPECT_EQ(read.pixels, volume.pixels);
+  EXPECT_EQ(read.spacing, 3e-6);
+  EXPECT_NE(error_of(folder / "a.raw", {3e-6, {{5, 4, 4}}, "uint16"}).find("found 120 bytes, expected 160"), std::string::npos);
+  EXPECT_THROW(read_volume(folder / "a.raw", {3e-6, {{5, 4, 3}}, "int7"}), BadUsage);
+}
+
+TEST(Volume, SlicesComeInTheOrderOfTheirNumbers) {
+  const ScratchFolder folder;
+  for (int k = 8; k < 12; ++k)
+    cv::imwrite((folder / fmt::format("slice_{}.tif", k)).string(), cv::Mat(3, 4, CV_16UC1, cv::Scalar(100 * k)));
+  const Volume volume = read_volume(folder.path(), {2e-6, {}, ""});
+  EXPECT_EQ(volume.size, (std::array<std::size_t, 3>{4, 3, 4}));
+  const auto& pixels = std::get<std::vector<std::uint16_t>>(volume.pixels);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(pixels[12 * k], 800 + 100 * k);
+
+  fs::remove(folder / "slice_10.tif");
+  EXPECT_NE(error_of(folder.path()).find("expected no slice missing"), std::string::npos);
+  cv::imwrite((folder / "slice_10.tif").string(), cv::Mat(3, 5, CV_16UC1, cv::Scalar(1)));
+  EXPECT_NE(error_of(folder.path()).find("found a slice of 5 x 3, expected 4 x 3"), std::string::npos);
+  cv::imwrite((folder / "slice_10.tif").string(), cv::Mat(3, 4, CV_8UC1, cv::Scalar(1)));
+  EXPECT_NE(error_of(folder.path()).find("found another pixel type"), std::string::npos);
+  cv::imwrite((folder / "slice_10.tif").string(), cv::Mat(3, 4, CV_16UC3, cv::Scalar(1, 2, 3)));
+  EXPECT_NE(error_of(folder.path()).find("expected one (grey)"), std::string::npos);
+}
+
+TEST(Volume, MultiPageTiff) {
+  const ScratchFolder folder;
+  std::vector<cv::Mat> pages;
+  for (int k = 0; k < 3; ++k) pages.emplace_back(4, 5, CV_16UC1, cv::Scalar(7 + k));
+  cv::imwritemulti((folder / "a.tif").string(), pages);
+  const Volume volume = read_volume(folder / "a.tif", {2e-6, {}, ""});
+  EXPECT_EQ(volume.size, (std::array<std::size_t, 3>{5, 4, 3}));
+  EXPECT_EQ(std::get<std::vector<std::uint16_t>>(volume.pixels)[40], 9);
+}
+
+TEST(Volume, NrrdNamesItsUnit) {
+  const ScratchFolder folder;
+  const Volume volume = ramp();
+  const std::string head = "NRRD0004\ntype: ushort\ndimension: 3\nsizes: 5 4 3\nendian: little\nencoding: raw\nspace dimension: 3\n"
+                           "space directions: (0.005,0,0) (0,0.005,0) (0,0,0.005)\n";
+  write_bytes(folder / "mm.nrrd", head + "space units: \"mm\" \"mm\" \"mm\"\n\n" + bytes_of(volume));
+  const Volume read = read_volume(folder / "mm.nrrd");
+  EXPECT_EQ(read.pixels, volume.pixels);
+  EXPECT_NEAR(read.spacing, 5e-6, 1e-15);
+  write_bytes(folder / "plain.nrrd", head + "\n" + bytes_of(volume));
+  EXPECT_NEAR(read_volume(folder / "plain.nrrd").spacing, 5e-9, 1e-18);
+  write_bytes(folder / "short.nrrd", head + "\n" + bytes_of(volume).substr(7));
+  EXPECT_NE(error_of(folder / "short.nrrd"), "");
+}
+
+TEST(Volume, BadInputIsOneLine) {
+  const ScratchFolder folder;
+  const auto header = [](const std::string& size, const std::string& type, const std::string& spacing) {
+    return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nElementSpacing = " + spacing +
+           "\nDimSize = " + size + "\nElementType = " + type + "\nElementDataFile = LOCAL\n";
+  };
+  const std::string data = bytes_of(ramp());
+  std::string not_a_number(60 * sizeof(float), '\0');
+  const float nan = std::nanf("");
+  not_a_number.replace(4 * sizeof(float), sizeof(float), reinterpret_cast<const char*>(&nan), sizeof(float));
+  const struct {
+    std::string name, bytes, part;
+  } cases[] = {
+      {"truncated.mha", header("5 4 3", "MET_USHORT", "2 2 2") + data.substr(20), "found 100 bytes of voxels, expected 120"},
+      {"lying.mha", header("5 4 4", "MET_USHORT", "2 2 2") + data, "found 120 bytes of voxels, expected 160"},
+      {"huge.mha", header("100000 100000 100000", "MET_USHORT", "2 2 2") + data, "found 120 bytes"},
+      {"signed.mha", header("5 4 3", "MET_SHORT", "2 2 2") + data, "found pixel type short"},
+      {"flat.mha", header("5 4 3", "MET_USHORT", "2 2 2") + std::string(120, '\1'), "found one grey value throughout"},
+      {"slab.mha", header("5 4 3", "MET_USHORT", "2 2 5") + data, "expected cubic ones"},
+      {"nan.mha", header("5 4 3", "MET_FLOAT", "2 2 2") + not_a_number, "voxel (4, 0, 0): found NaN"},
+      {"empty.mha", "", "empty.mha"},
+      {"text.nrrd", "hello", "text.nrrd"},
+      {"text.tif", "hello", "text.tif"},
+      {"other.txt", "hello", "found extension '.txt'"},
+  };
+  for (const auto& c : cases) {
+    write_bytes(folder / c.name, c.bytes);
+    const std::string message = error_of(folder / c.name);
+    EXPECT_NE(message.find(c.part), std::string::npos) << c.name << ": " << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+  EXPECT_THROW(read_volume(folder / "absent.mha"), BadInput);
+}
+
+}  // namespace
+}  // namespace pendular

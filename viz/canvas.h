@@ -1,0 +1,45 @@
+#pragma once
+
+// Off-screen window of the viz folder. Internal: knows VTK.
+
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+
+#include "viz/display.h"
+#include "viz/image.h"
+
+namespace pendular::viz {
+
+/// An off-screen window that draws at twice the picture's resolution and averages 2 × 2 pixels: smooth edges
+/// without depending on what antialiasing the machine's OpenGL offers. Sizes given to VTK in pixels (text,
+/// line widths) go through scaled().
+class Canvas {
+ public:
+  Canvas(const Display& display, PictureSize size);
+
+  vtkRenderWindow* window() { return window_; }
+
+  /// Window pixels for a length that is `length` pixels in a picture 1200 pixels high.
+  int scaled(double length) const;
+
+  /// Draws and reads back. ComputationFailed where OpenGL draws nothing.
+  Image draw();
+
+ private:
+  PictureSize size_;
+  vtkNew<vtkRenderWindow> window_;
+};
+
+/// Standard error goes nowhere while this object lives: Mesa and Xlib write there on their own account.
+class SilentStandardError {
+ public:
+  SilentStandardError();
+  ~SilentStandardError();
+  SilentStandardError(const SilentStandardError&) = delete;
+  SilentStandardError& operator=(const SilentStandardError&) = delete;
+
+ private:
+  int kept_;
+};
+
+}  // namespace pendular::viz

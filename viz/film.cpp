@@ -1,0 +1,119 @@
+#include "viz/film.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <thread>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/progress.h"
+
+extern char** environ;
+
+namespace pendular::viz {
+namespace {
+
+std::string picture_name(std::size_t k) {
+  return fmt::format("frame_{:04d}.png", k);
+}
+
+/// Runs a program found on PATH, silent and without a shell. Its exit status; nothing where it cannot be
+/// started or was killed. Ends it where the user stops the program.
+std::optional<int> run_program(std::vector<std::string> words) {
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  for (int fd : {0, 1, 2}) posix_spawn_file_actions_addopen(&actions, fd, "/dev/null", O_RDWR, 0);
+  pid_t child = 0;
+  const int failed = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0) return std::nullopt;
+  int status = 0;
+  while (::waitpid(child, &status, WNOHANG) == 0) {
+    if (interrupted()) ::kill(child, SIGTERM);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  stop_if_interrupted();
+  if (!WIFEXITED(status)) return std::nullopt;
+  return WEXITSTATUS(status);
+}
+
+std::optional<fs::path> make_video(const fs::path& folder, std::size_t pictures, const std::string& comment) {
+  const fs::path video = folder.string() + ".mp4";
+  // At least ten pictures a second, and no more than about ten seconds of film.
+  const std::size_t rate = std::max<std::size_t>(10, pictures / 10);
+  try {
+    write_atomically(video, [&](const fs::path& temporary) {
+      const auto status = run_program({"ffmpeg",
+                                       "-y",
+                                       "-nostdin",
+                                       "-framerate",
+                                       std::to_string(rate),
+                                       "-start_number",
+                                       "0",
+                                       "-i",
+                                       (folder / "frame_%04d.png").string(),
+                                       "-threads",
+                                       "1",
+                                       "-c:v",
+                                       "libx264",
+                                       "-crf",
+                                       "18",
+                                       "-pix_fmt",
+                                       "yuv420p",
+                                       "-movflags",
+                                       "+faststart",
+                                       "-fflags",
+                                       "+bitexact",
+                                       "-flags:v",
+                                       "+bitexact",
+                                       "-metadata",
+                                       "comment=" + comment,
+                                       "-f",
+                                       "mp4",
+                                       temporary.string()});
+      if (!status)
+        throw ComputationFailed("no film: ffmpeg could not be run; the pictures are in " + folder.string());
+      if (*status == 127)
+        throw ComputationFailed("no film: ffmpeg not found; the pictures are in " + folder.string());
+      if (*status != 0)
+        throw ComputationFailed(
+            fmt::format("no film: ffmpeg ended with {}; the pictures are in {}", *status, folder.string()));
+    });
+  } catch (const ComputationFailed& reason) {
+    std::error_code ignored;
+    fs::remove(video, ignored);  // of an earlier run: it would not show these pictures
+    say(reason.what());
+    return std::nullopt;
+  }
+  return video;
+}
+
+}  // namespace
+
+Film make_film(const Display& display, const View& view, const std::vector<fs::path>& frames,
+               const Stage& stage, const ColourRange& range, const fs::path& folder, PictureSize size,
+               const std::string& comment) {
+  make_folder(folder);
+  Film film;
+  Progress progress("film", static_cast<double>(frames.size()));
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    stop_if_interrupted();
+    film.pictures.push_back(folder / picture_name(k));
+    write_png(film.pictures.back(), draw_scene(display, view, read_frame(frames[k]), stage, range, size),
+              comment);
+    progress.update(static_cast<double>(k + 1), fmt::format("picture {} of {}", k + 1, frames.size()));
+  }
+  for (std::size_t k = frames.size(); fs::remove(folder / picture_name(k)); ++k) {
+  }
+  film.video = make_video(folder, film.pictures.size(), comment);
+  return film;
+}
+
+}  // namespace pendular::viz

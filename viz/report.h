@@ -1,0 +1,40 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/files.h"
+
+namespace pendular::viz {
+
+/// A picture file (PNG) and what it shows.
+struct ReportPicture {
+  fs::path file;
+  std::string caption;
+};
+
+/// One figure of the table: "Linear modulus", "15.3 ± 0.2", "MPa".
+struct ReportRow {
+  std::string quantity, value, unit;
+};
+
+struct ReportSection {
+  std::string heading;
+  std::string text;  ///< a paragraph; may be empty
+  std::vector<ReportRow> rows;
+  std::vector<ReportPicture> pictures;
+};
+
+struct Report {
+  std::string title;
+  std::string summary;  ///< one paragraph in words
+  std::vector<ReportSection> sections;
+  nlohmann::ordered_json provenance;  ///< shown at the end; null: none
+};
+
+/// Writes a report as one HTML page that needs nothing else: pictures are embedded, there is no script and no
+/// reference to another file. Every text is escaped. BadInput where a picture cannot be read.
+void write_report(const fs::path& path, const Report& report);
+
+}  // namespace pendular::viz
