@@ -40,7 +40,7 @@ struct Sample {
     double friction = 0.5;            ///< μ between beads
     double platen_friction = 0.5;     ///< μ between beads and platens
     double damping_fraction = 0.1;    ///< ζ over the critical damping of two mean beads in touch
-    double time_step_fraction = 0.1;  ///< time step over √(m_min/k_max)
+    double time_step_fraction = 0.2;  ///< time step over √(m_min/k_max)
     std::string tangential_springs =
         "two";  ///< "two": bond kt and contact 10 kt apart; "one": one whose stiffness jumps at touch
     bool bond_friction_limit = true;  ///< Coulomb limit μ|F^n| also on the bond's tangential force

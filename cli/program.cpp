@@ -29,6 +29,9 @@ CLI::App new_app() {
 
 void parse(CLI::App& app, const std::vector<std::string>& words) {
   set_command_line(words);
+  if (!words.empty() && words[0][0] != '-' &&
+      app.get_subcommands([&](CLI::App* command) { return command->get_name() == words[0]; }).empty())
+    throw BadUsage(fmt::format("unknown command \"{}\" (see pendular --help)", words[0]));
   app.parse(
       std::vector<std::string>(words.rbegin(), words.rend()));  // the library takes them last word first
 }

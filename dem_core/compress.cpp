@@ -11,6 +11,7 @@
 #include "dem_core/stepper.h"
 #include "packing/bridges.h"
 #include "packing/diameters.h"
+#include "packing/statistics.h"
 
 namespace pendular {
 namespace {
@@ -203,6 +204,10 @@ CompressResult compress(const Packing& packing, const Sample& sample, const fs::
   result.result = result_json(state, sample.beads.diameter, options.provenance);
   const double particle_steps = static_cast<double>(state.simulation.steps - first_step) *
                                 static_cast<double>(state.simulation.beads.size());
+  const Coordination interior = coordination(packing.beads, packing.bridges);
+  result.result["coordination"] = {{"bridges_per_interior_bead", interior.mean},
+                                   {"standard_error", interior.standard_error},
+                                   {"interior_beads", interior.beads}};
   result.result["performance"] = {{"particle_steps_per_second", wall > 0.0 ? particle_steps / wall : 0.0},
                                   {"wall_seconds", wall}};
   write_curve(folder / "curve.csv", state.rows, options.provenance);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/vec3.h"
@@ -36,12 +37,12 @@ inline double contact_force(double gap, double touch, double k_glass) {
 
 /// Bond part of the normal force: −kn (δn − δ0) apart, constant in overlap (paper, eq. 3).
 inline double bond_force(double gap, const PairProperties& pair) {
-  return -pair.kn * (std::fmax(gap, pair.touch) - pair.rest);
+  return -pair.kn * (std::max(gap, pair.touch) - pair.rest);
 }
 
 /// Energy of which contact_force + bond_force is minus the derivative with respect to the gap, J.
 inline double normal_energy(double gap, const PairProperties& pair, double k_glass) {
-  const double stretch = std::fmax(gap, pair.touch) - pair.rest;
+  const double stretch = std::max(gap, pair.touch) - pair.rest;
   const double bond = 0.5 * pair.kn * stretch * stretch;
   if (gap > pair.touch) return bond;
   const double overlap = pair.touch - gap;
@@ -62,11 +63,11 @@ inline Vec3 carried(const Vec3& slip, const Vec3& n, double spin) {
 /// Coulomb's law on a spring of stiffness k: shortens `slip` so that k|slip| ≤ limit. Returns the energy
 /// lost, J.
 inline double limit_slip(Vec3& slip, double k, double limit) {
-  const double length = slip.norm();
-  if (k * length <= limit) return 0.0;
-  const double kept = limit / k;
+  const double squared = slip.squaredNorm();
+  if (k * k * squared <= limit * limit) return 0.0;
+  const double length = std::sqrt(squared), kept = limit / k;
   slip *= kept / length;
-  return 0.5 * k * (length * length - kept * kept);
+  return 0.5 * k * (squared - kept * kept);
 }
 
 /// Griffith's criterion (paper, eq. 4): Δr_n² + |δt|²/12 ≥ 2 G l / E_p.

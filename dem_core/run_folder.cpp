@@ -82,9 +82,16 @@ nlohmann::ordered_json features_json(const std::vector<CurveRow>& rows) {
 nlohmann::ordered_json shear_band_json(const Simulation& simulation, double mean_diameter) {
   const auto strains =
       local_strains(simulation.beads.start, simulation.beads.position, simulation.beads.radius);
+  const std::vector<int> bonds = bead_contacts(simulation).bonds;
+  std::vector<Vec3> positions;  // of beads that still belong to the specimen
   std::vector<double> shear;
-  for (const auto& strain : strains) shear.push_back(strain.shear);
-  const ShearBand band = find_shear_band(simulation.beads.position, shear, mean_diameter);
+  for (std::size_t k = 0; k < strains.size(); ++k) {
+    if (bonds[k] == 0) continue;
+    positions.push_back(simulation.beads.position[k]);
+    shear.push_back(strains[k].shear);
+  }
+  if (positions.empty()) return {{"found", false}};
+  const ShearBand band = find_shear_band(positions, shear, mean_diameter);
   return {{"found", band.found},
           {"normal", {band.normal.x(), band.normal.y(), band.normal.z()}},
           {"point_um", {kUm * band.point.x(), kUm * band.point.y(), kUm * band.point.z()}},

@@ -23,8 +23,8 @@ struct Shell {
 /// What hides a shell: the cones and bodies of the neighbours, and the container.
 class Hidden {
  public:
-  Hidden(std::span<const GreyBall> balls, std::size_t own, std::span<const int> neighbours, const std::optional<Container>& container,
-         const FitSetting& setting)
+  Hidden(std::span<const GreyBall> balls, std::size_t own, std::span<const int> neighbours,
+         const std::optional<Container>& container, const FitSetting& setting)
       : centre_(balls[own].centre), container_(container), margin_(setting.half_width) {
     for (const int other : neighbours) {
       const GreyBall& ball = balls[other];
@@ -32,19 +32,22 @@ class Hidden {
       const double distance = to.norm();
       const double gap = distance - ball.radius - balls[own].radius;
       const double reach = ball.radius + margin_;
-      bodies_.push_back({to, reach * reach, to / distance, gap < setting.cone_gap ? std::cos(setting.cone) : 2.0});
+      bodies_.push_back(
+          {to, reach * reach, to / distance, gap < setting.cone_gap ? std::cos(setting.cone) : 2.0});
     }
   }
 
   /// `p` relative to the ball's centre, at distance r from it.
   bool operator()(const Vec3& p, double r) const {
     for (const Body& body : bodies_)
-      if (p.dot(body.direction) > body.cosine * r || (p - body.to).squaredNorm() < body.reach_squared) return true;
+      if (p.dot(body.direction) > body.cosine * r || (p - body.to).squaredNorm() < body.reach_squared)
+        return true;
     if (!container_) return false;
     const double z = centre_.z() + p.z();
     return std::hypot(centre_.x() + p.x() - container_->axis_x, centre_.y() + p.y() - container_->axis_y) >
                container_->radius - margin_ ||
-           (container_->bottom && z < *container_->bottom + margin_) || (container_->top && z > *container_->top - margin_);
+           (container_->bottom && z < *container_->bottom + margin_) ||
+           (container_->top && z > *container_->top - margin_);
   }
 
  private:
@@ -61,8 +64,10 @@ class Hidden {
 };
 
 template <typename T>
-Shell shell_of(std::span<const T> pixels, const Volume& volume, const GreyBall& ball, const Hidden& hidden, const FitSetting& setting) {
-  const double inner = std::max(0.5, ball.radius - setting.half_width), outer = ball.radius + setting.half_width;
+Shell shell_of(std::span<const T> pixels, const Volume& volume, const GreyBall& ball, const Hidden& hidden,
+               const FitSetting& setting) {
+  const double inner = std::max(0.5, ball.radius - setting.half_width),
+               outer = ball.radius + setting.half_width;
   std::array<long, 3> low, high;
   for (int axis = 0; axis < 3; ++axis) {
     low[axis] = static_cast<long>(std::ceil(ball.centre[axis] - outer));
@@ -74,14 +79,17 @@ Shell shell_of(std::span<const T> pixels, const Volume& volume, const GreyBall& 
   for (long k = low[2]; k <= high[2]; ++k)
     for (long j = low[1]; j <= high[1]; ++j)
       for (long i = low[0]; i <= high[0]; ++i) {
-        const Vec3 p = Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)) - ball.centre;
+        const Vec3 p =
+            Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)) - ball.centre;
         const double square = p.squaredNorm();
         if (square < inner * inner || square > outer * outer || all++ % setting.stride != 0) continue;
         if (!inside(i, 0) || !inside(j, 1) || !inside(k, 2) || hidden(p, std::sqrt(square))) continue;
         ++free;
-        const std::size_t n = (static_cast<std::size_t>(k) * volume.size[1] + static_cast<std::size_t>(j)) * volume.size[0] +
-                              static_cast<std::size_t>(i);
-        shell.samples.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), static_cast<float>(pixels[n])});
+        const std::size_t n =
+            (static_cast<std::size_t>(k) * volume.size[1] + static_cast<std::size_t>(j)) * volume.size[0] +
+            static_cast<std::size_t>(i);
+        shell.samples.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()),
+                                 static_cast<float>(p.z()), static_cast<float>(pixels[n])});
       }
   shell.free_share = all ? static_cast<double>(free * setting.stride) / static_cast<double>(all) : 0.0;
   return shell;
@@ -105,7 +113,12 @@ Equations equations(const std::vector<ShellVoxel>& voxels, const Parameters& q, 
     const double r = std::sqrt(dx * dx + dy * dy + dz * dz);
     const BallProfile profile = ball_profile(r, q[3], q[6]);
     const double pull = -q[4] * profile.by_distance / r;
-    const double slope[7] = {pull * dx,     pull * dy, pull * dz, q[4] * profile.by_radius, profile.value, 1.0,
+    const double slope[7] = {pull * dx,
+                             pull * dy,
+                             pull * dz,
+                             q[4] * profile.by_radius,
+                             profile.value,
+                             1.0,
                              q[4] * profile.by_blur};
     const double residual = voxel.grey - q[5] - q[4] * profile.value;
     for (int a = 0; a < 7; ++a) {
@@ -124,37 +137,26 @@ Equations equations(const std::vector<ShellVoxel>& voxels, const Parameters& q, 
   return result;
 }
 
-/// The first guess of contrast and background: means well inside and well outside.
-void start_levels(const std::vector<ShellVoxel>& samples, double radius, Parameters& q) {
-  double in = 0.0, out = 0.0, inside = 0.0, outside = 0.0;
-  for (const ShellVoxel& sample : samples) {
-    const bool within = std::hypot(sample.x, sample.y, sample.z) < radius;
-    (within ? in : out) += 1.0;
-    (within ? inside : outside) += sample.grey;
-  }
-  q[5] = out > 0.0 ? outside / out : 0.0;
-  q[4] = in > 0.0 && out > 0.0 ? inside / in - q[5] : 0.0;
-}
-
-bool plausible(const Parameters& q, double radius) {
-  return q.allFinite() && q.head<3>().norm() < 0.7 * radius && q[3] > 0.4 * radius && q[3] < 2.0 * radius && q[6] > 0.1 &&
-         q[6] < 0.5 * radius;
+bool plausible(const Parameters& q, double radius, double contrast) {
+  return q.allFinite() && q.head<3>().norm() < 0.7 * radius && q[3] > 0.4 * radius && q[3] < 2.0 * radius &&
+         q[6] > 0.1 && q[6] < 0.5 * radius && std::abs(q[4]) < 3.0 * std::abs(contrast);
 }
 
 }  // namespace
 
-BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::size_t own, std::span<const int> neighbours,
-                 const std::optional<Container>& container, const FitSetting& setting) {
+BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::size_t own,
+                 std::span<const int> neighbours, const std::optional<Container>& container,
+                 const FitSetting& setting) {
   const GreyBall& start = balls[own];
   const Hidden hidden(balls, own, neighbours, container, setting);
-  const Shell shell = with_pixels(volume, [&](auto pixels) { return shell_of(pixels, volume, start, hidden, setting); });
+  const Shell shell =
+      with_pixels(volume, [&](auto pixels) { return shell_of(pixels, volume, start, hidden, setting); });
   BallFit fit{start, setting.blur, 0.0, 0.0, 0.0, shell.free_share, false};
   constexpr std::size_t least_samples = 50;
   if (shell.samples.size() < least_samples) return fit;
 
   Parameters q;
-  q << 0.0, 0.0, 0.0, start.radius, 0.0, 0.0, setting.blur;
-  start_levels(shell.samples, start.radius, q);
+  q << 0.0, 0.0, 0.0, start.radius, start.contrast, start.background, setting.blur;
   Equations now = equations(shell.samples, q, setting.fit_blur);
   double damping = 1e-3;
   for (int iteration = 0; iteration < setting.iterations && !fit.converged && damping < 1e8; ++iteration) {
@@ -162,7 +164,7 @@ BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::siz
     damped.diagonal() *= 1.0 + damping;
     const Parameters step = damped.ldlt().solve(now.right);
     const Parameters next = q + step;
-    if (!plausible(next, start.radius)) {
+    if (!plausible(next, start.radius, start.contrast)) {
       damping *= 10.0;
       continue;
     }

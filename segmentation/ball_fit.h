@@ -20,29 +20,33 @@ struct GreyBall {
 /// What the fit of one ball gave. Standard errors hold for noise that is independent from voxel to voxel.
 struct BallFit {
   GreyBall ball;
-  double blur = 0.0;                              ///< standard deviation of the point spread, voxels
-  double sigma_centre = 0.0, sigma_radius = 0.0;  ///< standard errors (of the centre: root mean square over the axes), voxels
-  double residual = 0.0;                          ///< root mean square over the voxels used, grey values
-  double free_share = 0.0;                        ///< share of the shell that is neither hidden nor outside the volume
+  double blur = 0.0;  ///< standard deviation of the point spread, voxels
+  double sigma_centre = 0.0,
+         sigma_radius = 0.0;  ///< standard errors (of the centre: root mean square over the axes), voxels
+  double residual = 0.0;      ///< root mean square over the voxels used, grey values
+  double free_share = 0.0;    ///< share of the shell that is neither hidden nor outside the volume
   bool converged = false;
 };
 
 /// How one round of fits looks at the shell around each ball.
 struct FitSetting {
-  double blur = 1.0;         ///< voxels; starting value if `fit_blur`
+  double blur = 1.0;  ///< voxels; starting value if `fit_blur`
   bool fit_blur = false;
-  double half_width = 3.0;   ///< of the shell, voxels
-  double cone = 0.56;        ///< half-angle, around the direction to each neighbour, left out; rad (32°)
-  double cone_gap = 0.0;     ///< neighbours nearer than this (surface to surface, voxels) have a cone: there may be polymer
-  int iterations = 20;       ///< most
-  std::size_t stride = 1;    ///< of the voxels used, every so many
-  double tolerance = 1e-4;   ///< step of centre and radius below which the fit has converged, voxels
+  double half_width = 3.0;  ///< of the shell, voxels
+  double cone = 0.56;       ///< half-angle, around the direction to each neighbour, left out; rad (32°)
+  double cone_gap =
+      0.0;  ///< neighbours nearer than this (surface to surface, voxels) have a cone: there may be polymer
+  int iterations = 20;      ///< most
+  std::size_t stride = 1;   ///< of the voxels used, every so many
+  double tolerance = 1e-4;  ///< step of centre and radius below which the fit has converged, voxels
 };
 
-/// Fits ball `own` of `balls` to the grey values of its shell |r − R| < half_width by Levenberg–Marquardt: centre,
-/// radius, contrast, background and, if asked, blur. Left out are the cones towards the other balls named by
-/// `neighbours`, voxels nearer than half_width to their surfaces, and voxels as near to the container.
-BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::size_t own, std::span<const int> neighbours,
-                 const std::optional<Container>& container, const FitSetting& setting);
+/// Fits ball `own` of `balls` to the grey values of its shell |r − R| < half_width by Levenberg–Marquardt:
+/// centre, radius, contrast, background and, if asked, blur, from where `balls` has them. Left out are the
+/// cones towards the other balls named by `neighbours`, voxels nearer than half_width to their surfaces, and
+/// voxels as near to the container.
+BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::size_t own,
+                 std::span<const int> neighbours, const std::optional<Container>& container,
+                 const FitSetting& setting);
 
 }  // namespace pendular

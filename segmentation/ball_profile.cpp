@@ -7,14 +7,15 @@
 namespace pendular {
 namespace {
 
-/// Normal distribution and density on a grid fine enough for linear interpolation to 1e-7: the fits spend most of
-/// their time on these two.
+/// Normal distribution and density on a grid fine enough for linear interpolation to 1e-7: the fits spend
+/// most of their time on these two.
 class NormalTable {
  public:
   NormalTable() {
     for (int k = 0; k <= 2 * reach * per_unit + 1; ++k) {
       const double t = static_cast<double>(k) / per_unit - reach;
-      nodes_.push_back({0.5 * std::erfc(-t * M_SQRT1_2), std::exp(-0.5 * t * t) * 0.5 * M_SQRT1_2 * M_2_SQRTPI});
+      nodes_.push_back(
+          {0.5 * std::erfc(-t * M_SQRT1_2), std::exp(-0.5 * t * t) * 0.5 * M_SQRT1_2 * M_2_SQRTPI});
     }
   }
 
@@ -26,7 +27,8 @@ class NormalTable {
     const auto k = static_cast<std::size_t>(place);
     const double share = place - static_cast<double>(k);
     const Node &a = nodes_[k], &b = nodes_[k + 1];
-    return {a.cumulative + share * (b.cumulative - a.cumulative), a.density + share * (b.density - a.density)};
+    return {a.cumulative + share * (b.cumulative - a.cumulative),
+            a.density + share * (b.density - a.density)};
   }
 
  private:

@@ -2,9 +2,9 @@
 
 namespace pendular {
 
-/// A ball of radius R, 1 inside and 0 outside, seen through a Gaussian point spread of standard deviation s, at
-/// the distance r from its centre, and its derivatives. Exact but for terms of order exp(−2R²/s²):
-/// P = Φ(t) − (s/r) φ(t), t = (R − r)/s, with the normal distribution Φ and density φ. The second term is the
+/// A ball of radius R, 1 inside and 0 outside, seen through a Gaussian point spread of standard deviation s,
+/// at the distance r from its centre, and its derivatives. Exact but for terms of order exp(−2R²/s²): P =
+/// Φ(t) − (s/r) φ(t), t = (R − r)/s, with the normal distribution Φ and density φ. The second term is the
 /// curvature of the ball; without it R would come out too small by about s²/R.
 struct BallProfile {
   double value = 0.0;

@@ -12,7 +12,7 @@
 namespace pendular {
 namespace {
 
-constexpr double least_contrast = 0.4;  // of the classes' difference
+constexpr double least_contrast = 0.4;    // of the classes' difference
 constexpr double least_separation = 0.7;  // of two balls, over the sum of their radii
 
 double median(std::vector<double> values) {
@@ -45,8 +45,9 @@ std::vector<IndexPair> pairs_of(const std::vector<GreyBall>& balls, double max_g
 }
 
 /// One round: every ball fitted with the others where they were before.
-std::vector<BallFit> fit_round(const Volume& volume, const std::vector<GreyBall>& balls, const std::optional<Container>& container,
-                               const FitSetting& setting, const std::string& name) {
+std::vector<BallFit> fit_round(const Volume& volume, const std::vector<GreyBall>& balls,
+                               const std::optional<Container>& container, const FitSetting& setting,
+                               const std::string& name) {
   std::vector<std::vector<int>> neighbours(balls.size());
   for (const auto& [i, j] : pairs_of(balls, std::max(setting.cone_gap, 2.0 * setting.half_width))) {
     neighbours[static_cast<std::size_t>(i)].push_back(j);
@@ -73,22 +74,27 @@ bool outside(const Container& container, const Vec3& p) {
 
 bool outside(const Volume& volume, const Vec3& p) {
   for (int axis = 0; axis < 3; ++axis)
-    if (p[axis] < -0.5 || p[axis] > static_cast<double>(volume.size[static_cast<std::size_t>(axis)]) - 0.5) return true;
+    if (p[axis] < -0.5 || p[axis] > static_cast<double>(volume.size[static_cast<std::size_t>(axis)]) - 0.5)
+      return true;
   return false;
 }
 
 /// Drops fits that are no bead; of two that overlap, the one that fits worse.
-void reject(std::vector<BallFit>& fits, const Volume& volume, const GreyLevels& levels, const BeadSearch& search) {
-  const double needed = least_contrast * (levels.bright - levels.dark) * (search.bright ? 1.0 : -1.0);
+void reject(std::vector<BallFit>& fits, const Volume& volume, const BeadSearch& search) {
+  const double needed =
+      least_contrast * (search.levels.bright - search.levels.dark) * (search.bright ? 1.0 : -1.0);
   std::erase_if(fits, [&](const BallFit& fit) {
     return !fit.converged || fit.ball.contrast / needed < 1.0 || fit.ball.radius < search.least_radius ||
-           outside(volume, fit.ball.centre) || (search.container && outside(*search.container, fit.ball.centre));
+           outside(volume, fit.ball.centre) ||
+           (search.container && outside(*search.container, fit.ball.centre));
   });
   std::vector<bool> dropped(fits.size(), false);
   for (const auto& [a, b] : pairs_of(balls_of(fits), 0.0)) {
     const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
     const double separation = (fits[i].ball.centre - fits[j].ball.centre).norm();
-    if (dropped[i] || dropped[j] || separation > least_separation * (fits[i].ball.radius + fits[j].ball.radius)) continue;
+    if (dropped[i] || dropped[j] ||
+        separation > least_separation * (fits[i].ball.radius + fits[j].ball.radius))
+      continue;
     dropped[fits[i].residual < fits[j].residual ? j : i] = true;
   }
   std::size_t kept = 0;
@@ -97,27 +103,33 @@ void reject(std::vector<BallFit>& fits, const Volume& volume, const GreyLevels& 
   fits.resize(kept);
 }
 
-/// First fits to seeds, which may be off by a voxel or two: a wide shell, some of its voxels, the blur free.
-std::vector<BallFit> coarse_fits(const Volume& volume, const std::vector<GreyBall>& balls, const GreyLevels& levels,
+std::vector<GreyBall> balls_at(const std::vector<Seed>& seeds, const BeadSearch& search) {
+  const double edge = search.levels.bright - search.levels.dark;
+  std::vector<GreyBall> balls;
+  for (const Seed& seed : seeds)
+    balls.push_back({seed.centre, seed.radius, search.bright ? edge : -edge,
+                     search.bright ? search.levels.dark : search.levels.bright});
+  return balls;
+}
+
+/// First fits to seeds, which may be off by some voxels: a wide shell, some of its voxels; then with the blur
+/// free.
+std::vector<BallFit> coarse_fits(const Volume& volume, const std::vector<GreyBall>& balls,
                                  const BeadSearch& search, double cutoff) {
   std::vector<double> radii;
   for (const GreyBall& ball : balls) radii.push_back(ball.radius);
   const double radius = median(radii);
   FitSetting setting;
-  setting.fit_blur = true;
-  setting.half_width = std::max(3.0, 0.2 * radius);
+  setting.half_width = std::max(3.0, 0.3 * radius);
   setting.cone_gap = 2.0 * cutoff * radius + 2.0;
-  setting.stride = radius > 15.0 ? 3 : 1;
-  setting.tolerance = 0.02;
-  auto fits = fit_round(volume, balls, search.container, setting, "first fits");
-  reject(fits, volume, levels, search);
+  setting.stride = radius > 15.0 ? 4 : radius > 10.0 ? 2 : 1;
+  setting.tolerance = 0.05;
+  const auto first = fit_round(volume, balls, search.container, setting, "first fits");
+  setting.half_width = std::max(3.0, 0.2 * radius);
+  setting.fit_blur = true;
+  auto fits = fit_round(volume, balls_of(first), search.container, setting, "first fits, with blur");
+  reject(fits, volume, search);
   return fits;
-}
-
-std::vector<GreyBall> balls_at(const std::vector<Seed>& seeds) {
-  std::vector<GreyBall> balls;
-  for (const Seed& seed : seeds) balls.push_back({seed.centre, seed.radius, 0.0, 0.0});
-  return balls;
 }
 
 std::vector<Seed> seeds_at(const std::vector<BallFit>& fits) {
@@ -128,17 +140,30 @@ std::vector<Seed> seeds_at(const std::vector<BallFit>& fits) {
 
 }  // namespace
 
-FittedBeads fit_beads(const Volume& volume, const GreyLevels& levels, const BeadSearch& search, double cutoff) {
+double ball_share(const Volume& volume, const BeadSearch& search, double cutoff) {
+  constexpr std::size_t most = 150;
+  const std::size_t step = search.seeds.size() / most + 1;
+  std::vector<Seed> sample;
+  for (std::size_t n = 0; n < search.seeds.size(); n += step) sample.push_back(search.seeds[n]);
+  if (sample.empty()) return 0.0;
+  const auto fits = coarse_fits(volume, balls_at(sample, search), search, cutoff);
+  double sum = 0.0;
+  for (const BallFit& fit : fits) sum += 1.0 / (1.0 + std::pow(fit.residual / (0.15 * fit.ball.contrast), 2));
+  return sum / static_cast<double>(sample.size());
+}
+
+FittedBeads fit_beads(const Volume& volume, const BeadSearch& search, double cutoff) {
   FittedBeads result;
-  std::vector<BallFit> fits = coarse_fits(volume, balls_at(search.seeds), levels, search, cutoff);
+  std::vector<BallFit> fits = coarse_fits(volume, balls_at(search.seeds, search), search, cutoff);
   std::size_t tried = search.seeds.size();
-  const auto missed = search_missed(search.mask, seeds_at(fits), std::max(search.least_radius, 0.5 * median_radius(fits)));
+  const auto missed =
+      search_missed(search.mask, seeds_at(fits), std::max(search.least_radius, 0.5 * median_radius(fits)));
   if (!missed.empty()) {
     tried += missed.size();
     auto balls = balls_of(fits);
-    const auto more = balls_at(missed);
+    const auto more = balls_at(missed, search);
     balls.insert(balls.end(), more.begin(), more.end());
-    fits = coarse_fits(volume, balls, levels, search, cutoff);
+    fits = coarse_fits(volume, balls, search, cutoff);
   }
   if (fits.empty()) return result;
 
@@ -153,7 +178,7 @@ FittedBeads fit_beads(const Volume& volume, const GreyLevels& levels, const Bead
   for (const char* name : {"second fits", "last fits"}) {
     setting.tolerance *= 0.1;
     fits = fit_round(volume, balls_of(fits), search.container, setting, name);
-    reject(fits, volume, levels, search);
+    reject(fits, volume, search);
   }
   result.noise = measure_noise(volume, balls_of(fits), setting.half_width);
   result.grains = search_missed(search.mask, seeds_at(fits), search.least_radius);

@@ -5,7 +5,6 @@
 
 #include "base/interrupt.h"
 #include "base/parallel.h"
-#include "segmentation/polarity.h"
 
 namespace pendular {
 namespace {
@@ -18,29 +17,79 @@ Grid<std::uint8_t> mask_of(const Grid<float>& grey, double threshold, bool brigh
   return mask;
 }
 
-BeadSearch search_at(const Volume& volume, std::size_t factor, const GreyLevels& levels, BeadTone tone) {
-  BeadSearch search;
-  const Grid<float> grey = binned(volume, factor);
-  stop_if_interrupted();
-  search.container = find_container(grey, levels);
-  const Grid<float> smooth = smoothed(grey, 0.7);
-  stop_if_interrupted();
-  search.bright = tone == BeadTone::automatic ? mean_edge_curvature(smooth, levels) > 0.0 : tone == BeadTone::bright;
-  search.mask = mask_of(smooth, levels.threshold, search.bright);
+bool within(const Container& container, const Vec3& p) {
+  return std::hypot(p.x() - container.axis_x, p.y() - container.axis_y) < container.radius &&
+         (!container.bottom || p.z() > *container.bottom) && (!container.top || p.z() < *container.top);
+}
+
+/// Of the voxels within the container, where neither its walls nor the air around it count; of some millions
+/// of them, on every so many rows and slices.
+GreyLevels levels_within(const Volume& volume, const Container& container) {
+  constexpr double enough = 8e6;
+  const auto step = static_cast<std::size_t>(
+      std::ceil(std::sqrt(std::max(1.0, static_cast<double>(volume.voxels()) / enough))));
+  std::vector<float> values;
+  with_pixels(volume, [&](auto pixels) {
+    for (std::size_t k = 0; k < volume.size[2]; k += step)
+      for (std::size_t j = 0; j < volume.size[1]; j += step)
+        for (std::size_t i = 0; i < volume.size[0]; ++i)
+          if (within(container, Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k))))
+            values.push_back(static_cast<float>(pixels[(k * volume.size[1] + j) * volume.size[0] + i]));
+  });
+  return grey_levels(histogram_of(std::span<const float>(values)));
+}
+
+/// Mask and seeds from the grey values; levels, tone and container are known.
+void find_bodies(BeadSearch& search, const Grid<float>& smooth) {
+  search.mask = mask_of(smooth, search.levels.threshold, search.bright);
   if (search.container) clear_outside(search.mask, *search.container);
-  search.seeds = find_seeds(search.mask, 1.5 * static_cast<double>(factor));
+  search.seeds = find_seeds(search.mask, 1.5 * static_cast<double>(smooth.factor));
   stop_if_interrupted();
-  return search;
+}
+
+/// Volume of the balls inscribed at the seeds over that of the mask: near one for balls, less for what lies
+/// between them. Bodies that the picture cuts do not count: they may be of any shape.
+double inscribed_share(const BeadSearch& search) {
+  const auto& mask = search.mask;
+  const double factor = static_cast<double>(mask.factor);
+  const auto whole = [&](const Seed& seed) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double last = factor * static_cast<double>(mask.size[static_cast<std::size_t>(axis)]) - 1.0;
+      if (seed.centre[axis] < seed.radius || seed.centre[axis] > last - seed.radius) return false;
+    }
+    return true;
+  };
+  double balls = 0.0, nodes = 0.0;
+  for (const Seed& seed : search.seeds)
+    if (whole(seed)) balls += 4.0 / 3.0 * M_PI * std::pow(seed.radius, 3);
+  for (const std::uint8_t m : mask.values) nodes += m;
+  return nodes > 0.0 ? balls / (nodes * std::pow(factor, 3)) : 0.0;
 }
 
 }  // namespace
 
-BeadSearch search_beads(const Volume& volume, const GreyLevels& levels, BeadTone tone, std::optional<double> least_radius) {
-  constexpr double least_share = 0.4, least_nodes_across = 8.0;
-  BeadSearch search = search_at(volume, 2, levels, tone);
+BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<double> least_radius,
+                        const BallShare& balls_among) {
+  constexpr double least_share = 0.4, least_nodes_across = 8.0, smoothing = 0.7;
+  BeadSearch search;
+  search.levels = grey_levels(histogram_of(volume));
+  stop_if_interrupted();
+  const Grid<float> smooth = smoothed(binned(volume, 2), smoothing);
+  stop_if_interrupted();
+  search.container = find_container(smooth);
+  if (search.container) search.levels = levels_within(volume, *search.container);
+  search.bright = tone != BeadTone::dark;
+  find_bodies(search, smooth);
+  if (tone == BeadTone::automatic) {
+    BeadSearch other = search;
+    other.bright = false;
+    find_bodies(other, smooth);
+    if (balls_among(other) * inscribed_share(other) > balls_among(search) * inscribed_share(search))
+      search = std::move(other);
+  }
   double typical = typical_radius(search.seeds);
   if (typical < least_nodes_across) {
-    search = search_at(volume, 1, levels, tone);
+    find_bodies(search, smoothed(binned(volume, 1), smoothing));
     typical = typical_radius(search.seeds);
   }
   search.least_radius = least_radius.value_or(least_share * typical);
@@ -48,7 +97,8 @@ BeadSearch search_beads(const Volume& volume, const GreyLevels& levels, BeadTone
   return search;
 }
 
-std::vector<Seed> search_missed(const Grid<std::uint8_t>& mask, const std::vector<Seed>& found, double least_radius) {
+std::vector<Seed> search_missed(const Grid<std::uint8_t>& mask, const std::vector<Seed>& found,
+                                double least_radius) {
   Grid<std::uint8_t> rest = mask;
   const double factor = static_cast<double>(mask.factor);
   for (const Seed& seed : found) {
@@ -56,13 +106,16 @@ std::vector<Seed> search_missed(const Grid<std::uint8_t>& mask, const std::vecto
     std::array<long, 3> low, high;
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] = std::max(0L, static_cast<long>(std::floor((seed.centre[axis] - radius) / factor)));
-      high[axis] = std::min(static_cast<long>(mask.size[axis]) - 1, static_cast<long>(std::ceil((seed.centre[axis] + radius) / factor)));
+      high[axis] = std::min(static_cast<long>(mask.size[axis]) - 1,
+                            static_cast<long>(std::ceil((seed.centre[axis] + radius) / factor)));
     }
     for (long k = low[2]; k <= high[2]; ++k)
       for (long j = low[1]; j <= high[1]; ++j)
         for (long i = low[0]; i <= high[0]; ++i) {
-          const std::size_t a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j), c = static_cast<std::size_t>(k);
-          if ((mask.at(a, b, c) - seed.centre).squaredNorm() < radius * radius) rest.values[mask.index(a, b, c)] = 0;
+          const std::size_t a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j),
+                            c = static_cast<std::size_t>(k);
+          if ((mask.at(a, b, c) - seed.centre).squaredNorm() < radius * radius)
+            rest.values[mask.index(a, b, c)] = 0;
         }
   }
   return find_seeds(rest, least_radius);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -14,19 +15,28 @@ enum class BeadTone { automatic, bright, dark };
 
 /// Where beads may be, and what was found on the way.
 struct BeadSearch {
-  Grid<std::uint8_t> mask;             ///< 1: bead material, within the container
+  GreyLevels levels;        ///< within the container, where there is one
+  Grid<std::uint8_t> mask;  ///< 1: bead material, within the container
   std::vector<Seed> seeds;
-  bool bright = true;                  ///< beads are brighter than what surrounds them
-  double least_radius = 0.0;           ///< smallest seed kept, voxels
+  bool bright = true;         ///< beads are brighter than what surrounds them
+  double least_radius = 0.0;  ///< smallest seed kept, voxels
   std::optional<Container> container;
 };
 
-/// Looks for beads on the volume reduced twofold or, where they are smaller than sixteen voxels across, on all of
-/// it; lightly smoothed against noise. `least_radius` (voxels): leave out what is smaller; without it, what is
-/// below 0.4 of the typical radius. The tone, where it is automatic, is that of the bodies that bulge.
-BeadSearch search_beads(const Volume& volume, const GreyLevels& levels, BeadTone tone, std::optional<double> least_radius);
+/// Share of a search's seeds, or of a sample of them, that have a ball's edge.
+using BallShare = std::function<double(const BeadSearch&)>;
 
-/// Seeds in what the balls leave of the mask, at least `least_radius` voxels in radius: beads that were missed.
-std::vector<Seed> search_missed(const Grid<std::uint8_t>& mask, const std::vector<Seed>& found, double least_radius);
+/// Looks for beads on the volume reduced twofold or, where they are smaller than sixteen voxels across, on
+/// all of it; lightly smoothed against noise. `least_radius` (voxels): leave out what is smaller; without it,
+/// what is below 0.4 of the typical radius. The tone, where it is automatic, is that of the class for which
+/// this product is greater: the share `balls_among` its bodies, and the share of its volume that their
+/// inscribed balls fill.
+BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<double> least_radius,
+                        const BallShare& balls_among);
+
+/// Seeds in what the balls leave of the mask, at least `least_radius` voxels in radius: beads that were
+/// missed.
+std::vector<Seed> search_missed(const Grid<std::uint8_t>& mask, const std::vector<Seed>& found,
+                                double least_radius);
 
 }  // namespace pendular

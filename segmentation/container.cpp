@@ -9,7 +9,7 @@
 namespace pendular {
 namespace {
 
-// Shares of the edge between the two classes: a spread that only beads make, and a step that only a wall makes.
+// Shares of the range of grey values: a spread that only beads make, and a step that only a wall makes.
 constexpr double busy_spread = 0.2;
 constexpr double least_step = 0.15;
 
@@ -23,21 +23,37 @@ MeanAndSpread summary(double n, double sum, double squares) {
   return {mean, std::sqrt(std::max(0.0, squares / n - mean * mean))};
 }
 
-/// Along z, over the middle six tenths of the slices, for each column of nodes.
+/// Between the 2 % and 98 % quantiles: from air to bead, however much of the picture the container takes.
+double range_of(const Grid<float>& grey) {
+  std::vector<float> values = grey.values;
+  const auto quantile = [&](double share) {
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return static_cast<double>(*at);
+  };
+  return values.empty() ? 0.0 : quantile(0.98) - quantile(0.02);
+}
+
+/// For each column of nodes, along z: the spread over all slices, where pistons make the columns of beads
+/// vary all the more, and the mean over the middle six tenths, where there are beads only.
 std::vector<MeanAndSpread> columns_of(const Grid<float>& grey) {
   const std::size_t first = grey.size[2] / 5, last = grey.size[2] - first;
   std::vector<MeanAndSpread> columns(grey.size[0] * grey.size[1]);
   for_blocks(grey.size[1], 8, [&](std::size_t j0, std::size_t j1) {
     for (std::size_t j = j0; j < j1; ++j) {
-      std::vector<double> sum(grey.size[0], 0.0), squares(grey.size[0], 0.0);
-      for (std::size_t k = first; k < last; ++k)
+      std::vector<double> sum(grey.size[0], 0.0), squares(grey.size[0], 0.0), middle(grey.size[0], 0.0);
+      for (std::size_t k = 0; k < grey.size[2]; ++k)
         for (std::size_t i = 0; i < grey.size[0]; ++i) {
           const double g = grey.values[grey.index(i, j, k)];
           sum[i] += g;
           squares[i] += g * g;
+          if (k >= first && k < last) middle[i] += g;
         }
       for (std::size_t i = 0; i < grey.size[0]; ++i)
-        columns[j * grey.size[0] + i] = summary(static_cast<double>(last - first), sum[i], squares[i]);
+        columns[j * grey.size[0] + i] = {
+            middle[i] / static_cast<double>(last - first),
+            summary(static_cast<double>(grey.size[2]), sum[i], squares[i]).spread};
     }
   });
   return columns;
@@ -49,9 +65,12 @@ struct Disc {
 };
 
 /// The columns that vary, if they fill a disc that is clear of the picture's sides.
-std::optional<Disc> busy_disc(const Grid<float>& grey, const std::vector<MeanAndSpread>& columns, double edge) {
+std::optional<Disc> busy_disc(const Grid<float>& grey, const std::vector<MeanAndSpread>& columns,
+                              double edge) {
   const std::size_t nx = grey.size[0], ny = grey.size[1];
-  const auto busy = [&](std::size_t i, std::size_t j) { return columns[j * nx + i].spread > busy_spread * edge; };
+  const auto busy = [&](std::size_t i, std::size_t j) {
+    return columns[j * nx + i].spread > busy_spread * edge;
+  };
   double area = 0.0, x = 0.0, y = 0.0;
   for (std::size_t j = 0; j < ny; ++j)
     for (std::size_t i = 0; i < nx; ++i)
@@ -80,18 +99,21 @@ std::optional<Disc> busy_disc(const Grid<float>& grey, const std::vector<MeanAnd
 /// Linear between the four columns around (x, y); NaN outside the picture.
 double mean_at(const Grid<float>& grey, const std::vector<MeanAndSpread>& columns, double x, double y) {
   const double i = std::floor(x), j = std::floor(y);
-  if (i < 0.0 || j < 0.0 || i + 1.0 >= static_cast<double>(grey.size[0]) || j + 1.0 >= static_cast<double>(grey.size[1]))
+  if (i < 0.0 || j < 0.0 || i + 1.0 >= static_cast<double>(grey.size[0]) ||
+      j + 1.0 >= static_cast<double>(grey.size[1]))
     return std::nan("");
   const auto column = [&](double a, double b) {
     return columns[static_cast<std::size_t>(b) * grey.size[0] + static_cast<std::size_t>(a)].mean;
   };
   const double u = x - i, v = y - j;
-  return (1 - v) * ((1 - u) * column(i, j) + u * column(i + 1, j)) + v * ((1 - u) * column(i, j + 1) + u * column(i + 1, j + 1));
+  return (1 - v) * ((1 - u) * column(i, j) + u * column(i + 1, j)) +
+         v * ((1 - u) * column(i, j + 1) + u * column(i + 1, j + 1));
 }
 
-/// Where a profile sampled at `step` from `start` steps up most, refined by a parabola; none if the step up from
-/// the least value before to the greatest just after is below `least`.
-std::optional<double> steepest_rise(const std::vector<double>& profile, double start, double step, double least) {
+/// Where a profile sampled at `step` from `start` steps up most, refined by a parabola; none if the step up
+/// from the least value before to the greatest just after is below `least`.
+std::optional<double> steepest_rise(const std::vector<double>& profile, double start, double step,
+                                    double least) {
   std::size_t best = 0;
   double steepest = 0.0;
   const auto slope = [&](std::size_t k) { return profile[k + 1] - profile[k - 1]; };
@@ -126,7 +148,9 @@ Disc circle_through(std::vector<Eigen::Vector2d> points) {
     }
     const Eigen::Vector3d s = A.colPivHouseholderQr().solve(b);
     circle = {s[0], s[1], std::sqrt(s[2] + s[0] * s[0] + s[1] * s[1])};
-    const auto off = [&](const Eigen::Vector2d& p) { return std::abs((p - Eigen::Vector2d(circle.x, circle.y)).norm() - circle.radius); };
+    const auto off = [&](const Eigen::Vector2d& p) {
+      return std::abs((p - Eigen::Vector2d(circle.x, circle.y)).norm() - circle.radius);
+    };
     std::vector<double> distances;
     for (const auto& p : points) distances.push_back(off(p));
     std::nth_element(distances.begin(), distances.begin() + distances.size() / 2, distances.end());
@@ -138,13 +162,15 @@ Disc circle_through(std::vector<Eigen::Vector2d> points) {
 }
 
 /// The inner face of the tube: seen in sectors as a rise of the mean from the loose layer along it.
-std::optional<Disc> tube_of(const Grid<float>& grey, const std::vector<MeanAndSpread>& columns, const Disc& busy, double edge) {
+std::optional<Disc> tube_of(const Grid<float>& grey, const std::vector<MeanAndSpread>& columns,
+                            const Disc& busy, double edge) {
   constexpr int sectors = 90;
   constexpr double step = 0.25;  // nodes
   std::vector<Eigen::Vector2d> points;
   for (int sector = 0; sector < sectors; ++sector) {
     const double angle = 2.0 * M_PI * sector / sectors, c = std::cos(angle), s = std::sin(angle);
-    const double from = busy.radius - std::max(4.0, 0.06 * busy.radius), to = busy.radius + std::max(6.0, 0.08 * busy.radius);
+    const double from = busy.radius - std::max(4.0, 0.06 * busy.radius),
+                 to = busy.radius + std::max(6.0, 0.08 * busy.radius);
     std::vector<double> profile;
     for (double r = from; r < to; r += step) {
       const double mean = mean_at(grey, columns, busy.x + r * c, busy.y + r * s);
@@ -167,7 +193,8 @@ std::vector<MeanAndSpread> slices_of(const Grid<float>& grey, const Disc& tube) 
     double n = 0.0, sum = 0.0, squares = 0.0;
     for (std::size_t j = 0; j < grey.size[1]; ++j)
       for (std::size_t i = 0; i < grey.size[0]; ++i) {
-        if (std::hypot(static_cast<double>(i) - tube.x, static_cast<double>(j) - tube.y) > 0.9 * tube.radius) continue;
+        if (std::hypot(static_cast<double>(i) - tube.x, static_cast<double>(j) - tube.y) > 0.9 * tube.radius)
+          continue;
         const double g = grey.values[grey.index(i, j, k)];
         n += 1.0;
         sum += g;
@@ -182,12 +209,15 @@ std::vector<MeanAndSpread> slices_of(const Grid<float>& grey, const Disc& tube) 
 /// does not step up where the beads end.
 std::optional<double> piston_face(const std::vector<MeanAndSpread>& slices, bool upwards, double edge) {
   const auto n = std::ssize(slices);
-  const auto slice = [&](std::ptrdiff_t k) -> const MeanAndSpread& { return slices[upwards ? k : n - 1 - k]; };
+  const auto slice = [&](std::ptrdiff_t k) -> const MeanAndSpread& {
+    return slices[upwards ? k : n - 1 - k];
+  };
   std::ptrdiff_t last_busy = -1;
   for (std::ptrdiff_t k = 0; k < n; ++k)
     if (slice(k).spread > busy_spread * edge) last_busy = k;
   if (last_busy < 0) return std::nullopt;
-  const std::ptrdiff_t from = std::max<std::ptrdiff_t>(0, last_busy - 4), to = std::min<std::ptrdiff_t>(n, last_busy + 8);
+  const std::ptrdiff_t from = std::max<std::ptrdiff_t>(0, last_busy - 4),
+                       to = std::min<std::ptrdiff_t>(n, last_busy + 8);
   std::vector<double> profile;
   for (std::ptrdiff_t k = from; k < to; ++k) profile.push_back(slice(k).mean);
   const auto face = steepest_rise(profile, static_cast<double>(from), 1.0, least_step * edge);
@@ -197,8 +227,8 @@ std::optional<double> piston_face(const std::vector<MeanAndSpread>& slices, bool
 
 }  // namespace
 
-std::optional<Container> find_container(const Grid<float>& grey, const GreyLevels& levels) {
-  const double edge = levels.bright - levels.dark;
+std::optional<Container> find_container(const Grid<float>& grey) {
+  const double edge = range_of(grey);
   const auto columns = columns_of(grey);
   const auto busy = busy_disc(grey, columns, edge);
   if (!busy) return std::nullopt;
@@ -218,8 +248,9 @@ void clear_outside(Grid<std::uint8_t>& mask, const Container& container) {
     for (std::size_t j = 0; j < mask.size[1]; ++j)
       for (std::size_t i = 0; i < mask.size[0]; ++i) {
         const Vec3 p = mask.at(i, j, k);
-        const bool within = std::hypot(p.x() - container.axis_x, p.y() - container.axis_y) < container.radius &&
-                            (!container.bottom || p.z() > *container.bottom) && (!container.top || p.z() < *container.top);
+        const bool within =
+            std::hypot(p.x() - container.axis_x, p.y() - container.axis_y) < container.radius &&
+            (!container.bottom || p.z() > *container.bottom) && (!container.top || p.z() < *container.top);
         if (!within) mask.values[mask.index(i, j, k)] = 0;
       }
   });

@@ -36,7 +36,8 @@ Histogram coarsened(const Histogram& fine, std::size_t bins) {
   for (double sum = fine.counts[low]; sum <= tail * total && low < high;) sum += fine.counts[++low];
   for (double sum = fine.counts[high]; sum <= tail * total && high > low;) sum += fine.counts[--high];
   const std::size_t merged = std::max<std::size_t>(1, (high - low + bins) / bins);
-  Histogram coarse{fine.lowest + static_cast<double>(low) * fine.width, fine.width * static_cast<double>(merged), {}};
+  Histogram coarse{
+      fine.lowest + static_cast<double>(low) * fine.width, fine.width * static_cast<double>(merged), {}};
   coarse.counts.assign((high - low) / merged + 1, 0.0);
   for (std::size_t k = low; k <= high; ++k) coarse.counts[(k - low) / merged] += fine.counts[k];
   return coarse;
@@ -70,16 +71,21 @@ std::vector<double> smoothed(const std::vector<double>& counts, double sd) {
   const auto reach = static_cast<std::ptrdiff_t>(std::ceil(3.0 * sd));
   std::vector<double> result(counts.size(), 0.0);
   for (std::ptrdiff_t bin = 0; bin < std::ssize(counts); ++bin)
-    for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, bin - reach); k <= std::min(bin + reach, std::ssize(counts) - 1); ++k)
+    for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, bin - reach);
+         k <= std::min(bin + reach, std::ssize(counts) - 1); ++k)
       result[static_cast<std::size_t>(bin)] +=
-          counts[static_cast<std::size_t>(k)] * std::exp(-0.5 * static_cast<double>((k - bin) * (k - bin)) / (sd * sd));
+          counts[static_cast<std::size_t>(k)] *
+          std::exp(-0.5 * static_cast<double>((k - bin) * (k - bin)) / (sd * sd));
   return result;
 }
 
-/// The highest maximum of the counts within bins [first, last), refined by a parabola; none where they only rise
-/// or fall across the class. The ends of the whole histogram count as lower.
-std::optional<double> peak(const Histogram& histogram, const std::vector<double>& counts, std::size_t first, std::size_t last) {
-  const auto at = [&](std::ptrdiff_t k) { return k < 0 || k >= std::ssize(counts) ? 0.0 : counts[static_cast<std::size_t>(k)]; };
+/// The highest maximum of the counts within bins [first, last), refined by a parabola; none where they only
+/// rise or fall across the class. The ends of the whole histogram count as lower.
+std::optional<double> peak(const Histogram& histogram, const std::vector<double>& counts, std::size_t first,
+                           std::size_t last) {
+  const auto at = [&](std::ptrdiff_t k) {
+    return k < 0 || k >= std::ssize(counts) ? 0.0 : counts[static_cast<std::size_t>(k)];
+  };
   std::optional<std::size_t> best;
   for (std::size_t k = first; k < last; ++k) {
     const auto n = static_cast<std::ptrdiff_t>(k);
@@ -88,7 +94,8 @@ std::optional<double> peak(const Histogram& histogram, const std::vector<double>
   if (!best) return std::nullopt;
   const auto n = static_cast<std::ptrdiff_t>(*best);
   const double curvature = at(n - 1) - 2.0 * at(n) + at(n + 1);
-  const double shift = curvature < 0.0 ? std::clamp(0.5 * (at(n - 1) - at(n + 1)) / curvature, -0.5, 0.5) : 0.0;
+  const double shift =
+      curvature < 0.0 ? std::clamp(0.5 * (at(n - 1) - at(n + 1)) / curvature, -0.5, 0.5) : 0.0;
   return histogram.centre(*best) + shift * histogram.width;
 }
 
@@ -101,31 +108,38 @@ double mean(const Histogram& histogram, std::size_t first, std::size_t last) {
   return weight > 0.0 ? sum / weight : histogram.centre(first);
 }
 
+template <typename T>
+Histogram counted(std::span<const T> values) {
+  const auto [least, greatest] = extremes(values);
+  const double range = static_cast<double>(greatest) - static_cast<double>(least);
+  const bool exact = std::is_integral_v<T> && range < static_cast<double>(most_bins);
+  Histogram histogram;
+  histogram.width = exact ? 1.0 : range / static_cast<double>(most_bins - 1);
+  histogram.lowest = static_cast<double>(least) - 0.5 * histogram.width;
+  const std::size_t bins = exact ? static_cast<std::size_t>(range) + 1 : most_bins;
+  std::vector<std::uint64_t> counts(bins, 0);
+  std::mutex guard;
+  const double lowest = histogram.lowest, per_bin = 1.0 / histogram.width;
+  for_blocks(values.size(), 1 << 24, [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> own(bins, 0);
+    for (std::size_t k = first; k < last; ++k)
+      ++own[std::min(bins - 1,
+                     static_cast<std::size_t>((static_cast<double>(values[k]) - lowest) * per_bin))];
+    const std::lock_guard lock(guard);
+    for (std::size_t k = 0; k < bins; ++k) counts[k] += own[k];
+  });
+  histogram.counts.assign(counts.begin(), counts.end());
+  return histogram;
+}
+
 }  // namespace
 
+Histogram histogram_of(std::span<const float> values) {
+  return counted(values);
+}
+
 Histogram histogram_of(const Volume& volume) {
-  return with_pixels(volume, [](auto pixels) {
-    using T = std::remove_cvref_t<decltype(pixels[0])>;
-    const auto [least, greatest] = extremes(pixels);
-    const double range = static_cast<double>(greatest) - static_cast<double>(least);
-    const bool exact = std::is_integral_v<T> && range < static_cast<double>(most_bins);
-    Histogram histogram;
-    histogram.width = exact ? 1.0 : range / static_cast<double>(most_bins - 1);
-    histogram.lowest = static_cast<double>(least) - 0.5 * histogram.width;
-    const std::size_t bins = exact ? static_cast<std::size_t>(range) + 1 : most_bins;
-    std::vector<std::uint64_t> counts(bins, 0);
-    std::mutex guard;
-    const double lowest = histogram.lowest, per_bin = 1.0 / histogram.width;
-    for_blocks(pixels.size(), 1 << 24, [&](std::size_t first, std::size_t last) {
-      std::vector<std::uint32_t> own(bins, 0);
-      for (std::size_t k = first; k < last; ++k)
-        ++own[std::min(bins - 1, static_cast<std::size_t>((static_cast<double>(pixels[k]) - lowest) * per_bin))];
-      const std::lock_guard lock(guard);
-      for (std::size_t k = 0; k < bins; ++k) counts[k] += own[k];
-    });
-    histogram.counts.assign(counts.begin(), counts.end());
-    return histogram;
-  });
+  return with_pixels(volume, [](auto pixels) { return counted(pixels); });
 }
 
 GreyLevels grey_levels(const Histogram& histogram) {

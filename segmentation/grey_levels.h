@@ -15,6 +15,7 @@ struct Histogram {
 
 /// One bin per grey value for integers, 65,536 bins from least to greatest for floats.
 Histogram histogram_of(const Volume& volume);
+Histogram histogram_of(std::span<const float> values);
 
 /// The two classes of grey values that a volume is made of, and what parts them.
 struct GreyLevels {
@@ -22,9 +23,9 @@ struct GreyLevels {
   double threshold = 0.0;           ///< halfway between them: where the edge of a blurred body lies
 };
 
-/// Classes by Otsu's criterion (Otsu 1979, IEEE Trans. SMC 9), then the peak of either class, or both means where
-/// one class has no peak of its own. Halfway between peaks does not depend on how much there is of each class, nor
-/// on a faint third one (polymer), as Otsu's threshold does.
+/// Classes by Otsu's criterion (Otsu 1979, IEEE Trans. SMC 9), then the peak of either class, or both means
+/// where one class has no peak of its own. Halfway between peaks does not depend on how much there is of each
+/// class, nor on a faint third one (polymer), as Otsu's threshold does.
 GreyLevels grey_levels(const Histogram& histogram);
 
 }  // namespace pendular

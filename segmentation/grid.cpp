@@ -21,7 +21,8 @@ auto itk_image(const Grid<T>& grid) {
   typename itk::ImportImageFilter<T, 3>::RegionType region;
   for (unsigned axis = 0; axis < 3; ++axis) region.SetSize(axis, grid.size[axis]);
   import->SetRegion(region);
-  import->SetImportPointer(const_cast<T*>(grid.values.data()), grid.values.size(), false);  // ITK only reads it
+  import->SetImportPointer(const_cast<T*>(grid.values.data()), grid.values.size(),
+                           false);  // ITK only reads it
   return import;
 }
 

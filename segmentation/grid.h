@@ -18,7 +18,9 @@ struct Grid {
   std::size_t factor = 1;  ///< voxels of the full volume per node, along each axis
   std::vector<T> values;   ///< x running fastest
 
-  std::size_t index(std::size_t i, std::size_t j, std::size_t k) const { return (k * size[1] + j) * size[0] + i; }
+  std::size_t index(std::size_t i, std::size_t j, std::size_t k) const {
+    return (k * size[1] + j) * size[0] + i;
+  }
   Vec3 at(std::size_t i, std::size_t j, std::size_t k) const {
     const double f = static_cast<double>(factor);
     return Vec3((static_cast<double>(i) + 0.5) * f - 0.5, (static_cast<double>(j) + 0.5) * f - 0.5,

@@ -16,7 +16,8 @@ class Owners {
   Owners(const Volume& volume, const std::vector<Bead>& bodies) {
     double smallest = std::numeric_limits<double>::infinity();
     for (const Bead& bead : bodies) {
-      balls_.push_back({(bead.centre - volume.origin) / volume.spacing, 0.5 * bead.diameter / volume.spacing});
+      balls_.push_back(
+          {(bead.centre - volume.origin) / volume.spacing, 0.5 * bead.diameter / volume.spacing});
       smallest = std::min(smallest, balls_.back().radius);
     }
     width_ = std::max<std::size_t>(4, static_cast<std::size_t>(smallest));
@@ -32,7 +33,8 @@ class Owners {
     const Vec3 p(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
     double least = std::numeric_limits<double>::infinity();
     std::uint32_t owner = 0;
-    for (const std::uint32_t n : candidates_[((k / width_) * cells_[1] + j / width_) * cells_[0] + i / width_])
+    for (const std::uint32_t n :
+         candidates_[((k / width_) * cells_[1] + j / width_) * cells_[0] + i / width_])
       if (const double d = (p - balls_[n].centre).norm() - balls_[n].radius; d < least) {
         least = d;
         owner = n + 1;
@@ -49,7 +51,8 @@ class Owners {
   /// Those whose surface is no further from the cell's middle than the nearest one and the cell's diagonal.
   std::vector<std::uint32_t> candidates_of(std::size_t cell) const {
     const double w = static_cast<double>(width_);
-    const Vec3 middle = w * Vec3(static_cast<double>(cell % cells_[0]) + 0.5, static_cast<double>(cell / cells_[0] % cells_[1]) + 0.5,
+    const Vec3 middle = w * Vec3(static_cast<double>(cell % cells_[0]) + 0.5,
+                                 static_cast<double>(cell / cells_[0] % cells_[1]) + 0.5,
                                  static_cast<double>(cell / (cells_[0] * cells_[1])) + 0.5);
     std::vector<double> distance;
     for (const Owner& ball : balls_) distance.push_back((middle - ball.centre).norm() - ball.radius);
@@ -78,7 +81,8 @@ std::vector<Label> labels_of(const Volume& volume, const Segmentation& segmentat
         const auto [first, last] = row_within(volume, segmentation.specimen, j, k);
         const std::size_t row = (k * volume.size[1] + j) * volume.size[0];
         for (std::size_t i = first; i < last; ++i)
-          if ((static_cast<double>(pixels[row + i]) > segmentation.levels.threshold) == segmentation.bright_beads)
+          if ((static_cast<double>(pixels[row + i]) > segmentation.levels.threshold) ==
+              segmentation.bright_beads)
             labels[row + i] = static_cast<Label>(owner(i, j, k));
       }
     });

@@ -29,17 +29,20 @@ LagSums core_sums(std::span<const T> pixels, const Volume& volume, const GreyBal
     return box[static_cast<std::size_t>(((k + reach) * width + j + reach) * width + i + reach)];
   };
   double n = 0.0, sum = 0.0;
-  const std::array<long, 3> middle{std::lround(ball.centre.x()), std::lround(ball.centre.y()), std::lround(ball.centre.z())};
+  const std::array<long, 3> middle{std::lround(ball.centre.x()), std::lround(ball.centre.y()),
+                                   std::lround(ball.centre.z())};
   for (long k = -reach; k <= reach; ++k)
     for (long j = -reach; j <= reach; ++j)
       for (long i = -reach; i <= reach; ++i) {
         const long x = middle[0] + i, y = middle[1] + j, z = middle[2] + k;
         if (static_cast<double>(i * i + j * j + k * k) > core * core) continue;
-        if (x < 0 || y < 0 || z < 0 || x >= static_cast<long>(volume.size[0]) || y >= static_cast<long>(volume.size[1]) ||
-            z >= static_cast<long>(volume.size[2]))
+        if (x < 0 || y < 0 || z < 0 || x >= static_cast<long>(volume.size[0]) ||
+            y >= static_cast<long>(volume.size[1]) || z >= static_cast<long>(volume.size[2]))
           continue;
         const double grey = static_cast<double>(
-            pixels[(static_cast<std::size_t>(z) * volume.size[1] + static_cast<std::size_t>(y)) * volume.size[0] + static_cast<std::size_t>(x)]);
+            pixels[(static_cast<std::size_t>(z) * volume.size[1] + static_cast<std::size_t>(y)) *
+                       volume.size[0] +
+                   static_cast<std::size_t>(x)]);
         at(i, j, k) = grey;
         n += 1.0;
         sum += grey;
@@ -79,7 +82,9 @@ Noise measure_noise(const Volume& volume, std::span<const GreyBall> balls, doubl
   const std::size_t used = balls.empty() ? 0 : (balls.size() - 1) / step + 1;
   std::vector<LagSums> sums(used);
   with_pixels(volume, [&](auto pixels) {
-    for_blocks(used, 1, [&](std::size_t n, std::size_t) { sums[n] = core_sums(pixels, volume, balls[n * step], margin); });
+    for_blocks(used, 1, [&](std::size_t n, std::size_t) {
+      sums[n] = core_sums(pixels, volume, balls[n * step], margin);
+    });
   });
   LagSums total;
   for (const LagSums& own : sums)
@@ -105,7 +110,9 @@ VarianceInflation variance_inflation(const Noise& noise, double radius, double b
   if (lags < 1) return {};
   const long reach = static_cast<long>(std::ceil(radius + 3.0 * blur)), width = 2 * reach + 1;
   std::vector<double> by_radius(static_cast<std::size_t>(width * width * width), 0.0), by_x = by_radius;
-  const auto index = [&](long i, long j, long k) { return static_cast<std::size_t>(((k + reach) * width + j + reach) * width + i + reach); };
+  const auto index = [&](long i, long j, long k) {
+    return static_cast<std::size_t>(((k + reach) * width + j + reach) * width + i + reach);
+  };
   for (long k = -reach; k <= reach; ++k)
     for (long j = -reach; j <= reach; ++j)
       for (long i = -reach; i <= reach; ++i) {
@@ -125,7 +132,8 @@ VarianceInflation variance_inflation(const Noise& noise, double radius, double b
         for (long c = std::max(-reach, k - lags); c <= std::min(reach, k + lags); ++c)
           for (long b = std::max(-reach, j - lags); b <= std::min(reach, j + lags); ++b)
             for (long a = std::max(-reach, i - lags); a <= std::min(reach, i + lags); ++a) {
-              const double distance = std::sqrt(static_cast<double>((a - i) * (a - i) + (b - j) * (b - j) + (c - k) * (c - k)));
+              const double distance =
+                  std::sqrt(static_cast<double>((a - i) * (a - i) + (b - j) * (b - j) + (c - k) * (c - k)));
               const double rho = correlation_at(noise.correlation, distance);
               radius_sum += jr * by_radius[index(a, b, c)] * rho;
               x_sum += jx * by_x[index(a, b, c)] * rho;

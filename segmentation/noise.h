@@ -18,8 +18,8 @@ struct Noise {
 Noise measure_noise(const Volume& volume, std::span<const GreyBall> balls, double margin);
 
 /// By how much correlation of the noise raises the variance of a fitted ball's centre and radius above what
-/// independent noise of the same sd gives: Σ_uv J_u J_v ρ(|u − v|) / Σ_v J_v², with J the slope of the profile
-/// over the shell and ρ taken as isotropic.
+/// independent noise of the same sd gives: Σ_uv J_u J_v ρ(|u − v|) / Σ_v J_v², with J the slope of the
+/// profile over the shell and ρ taken as isotropic.
 struct VarianceInflation {
   double centre = 1.0, radius = 1.0;
 };

@@ -28,13 +28,15 @@ double pixel(const Volume& volume, const Plane& plane, std::size_t a, std::size_
 }
 
 /// The plane as a grey picture, z or y upwards; 0.1 of the range is left on both sides of the two classes.
-cv::Mat picture(const Volume& volume, const Plane& plane, const std::function<double(std::size_t, std::size_t)>& share) {
-  const auto width = static_cast<int>(volume.size[0]), height = static_cast<int>(volume.size[static_cast<std::size_t>(plane.vertical)]);
+cv::Mat picture(const Volume& volume, const Plane& plane,
+                const std::function<double(std::size_t, std::size_t)>& share) {
+  const auto width = static_cast<int>(volume.size[0]),
+             height = static_cast<int>(volume.size[static_cast<std::size_t>(plane.vertical)]);
   cv::Mat image(height, width, CV_8UC1);
   for (int row = 0; row < height; ++row)
     for (int column = 0; column < width; ++column)
-      image.at<std::uint8_t>(row, column) =
-          cv::saturate_cast<std::uint8_t>(255.0 * share(static_cast<std::size_t>(column), static_cast<std::size_t>(height - 1 - row)));
+      image.at<std::uint8_t>(row, column) = cv::saturate_cast<std::uint8_t>(
+          255.0 * share(static_cast<std::size_t>(column), static_cast<std::size_t>(height - 1 - row)));
   return image;
 }
 
@@ -54,22 +56,27 @@ struct Drawing {
 
   /// Position in sixteenths of a pixel.
   cv::Point at(double x, double y) const {
-    const auto place = [&](double v) { return static_cast<int>(std::lround(16.0 * ((v + 0.5) * scale - 0.5))); };
+    const auto place = [&](double v) {
+      return static_cast<int>(std::lround(16.0 * ((v + 0.5) * scale - 0.5)));
+    };
     return {place(x), place(height - 1.0 - y)};
   }
   void circle(double x, double y, double radius, const cv::Scalar& colour) {
-    cv::circle(image, at(x, y), static_cast<int>(std::lround(16.0 * radius * scale)), colour, 1, cv::LINE_AA, 4);
+    cv::circle(image, at(x, y), static_cast<int>(std::lround(16.0 * radius * scale)), colour, 1, cv::LINE_AA,
+               4);
   }
   void line(double x0, double y0, double x1, double y1, const cv::Scalar& colour) {
     cv::line(image, at(x0, y0), at(x1, y1), colour, 1, cv::LINE_AA, 4);
   }
 };
 
-const cv::Scalar green(60, 220, 60), orange(0, 140, 255), blue(255, 150, 60), dark(40, 40, 40), pale(225, 225, 225);
+const cv::Scalar green(60, 220, 60), orange(0, 140, 255), blue(255, 150, 60), dark(40, 40, 40),
+    pale(225, 225, 225);
 
 void write_png(const fs::path& path, const cv::Mat& image) {
   write_atomically(path, [&](const fs::path& temporary) {
-    if (!cv::imwrite(temporary.string(), image)) throw ComputationFailed(fmt::format("{}: cannot be written", path.string()));
+    if (!cv::imwrite(temporary.string(), image))
+      throw ComputationFailed(fmt::format("{}: cannot be written", path.string()));
   });
 }
 
@@ -97,9 +104,11 @@ cv::Mat overlay(const Volume& volume, const Segmentation& segmentation, const Pl
   }));
   for (const Bead& bead : segmentation.beads) {
     const Vec3 c = (bead.centre - volume.origin) / volume.spacing;
-    const double radius = 0.5 * bead.diameter / volume.spacing, off = static_cast<double>(plane.level) - c[plane.normal()];
+    const double radius = 0.5 * bead.diameter / volume.spacing,
+                 off = static_cast<double>(plane.level) - c[plane.normal()];
     if (std::abs(off) < radius)
-      drawing.circle(c.x(), c[plane.vertical], std::sqrt(radius * radius - off * off), bead.quality < 0.5 ? orange : green);
+      drawing.circle(c.x(), c[plane.vertical], std::sqrt(radius * radius - off * off),
+                     bead.quality < 0.5 ? orange : green);
   }
   if (segmentation.specimen) draw_specimen(drawing, volume, plane, *segmentation.specimen);
   return drawing.image;
@@ -108,20 +117,24 @@ cv::Mat overlay(const Volume& volume, const Segmentation& segmentation, const Pl
 cv::Mat residual(const Volume& volume, const Segmentation& segmentation, const Plane& plane) {
   const GreyLevels& levels = segmentation.levels;
   const double edge = levels.bright - levels.dark, blur = segmentation.blur / volume.spacing;
-  const auto width = static_cast<int>(volume.size[0]), height = static_cast<int>(volume.size[static_cast<std::size_t>(plane.vertical)]);
+  const auto width = static_cast<int>(volume.size[0]),
+             height = static_cast<int>(volume.size[static_cast<std::size_t>(plane.vertical)]);
   cv::Mat model(height, width, CV_64FC1, cv::Scalar(0.0));
   for (const Bead& bead : segmentation.beads) {
     const Vec3 c = (bead.centre - volume.origin) / volume.spacing;
     const double radius = 0.5 * bead.diameter / volume.spacing, reach = radius + 4.0 * blur;
     const double off = static_cast<double>(plane.level) - c[plane.normal()];
     if (std::abs(off) > reach) continue;
-    for (int b = std::max(0, static_cast<int>(c[plane.vertical] - reach)); b < std::min(height, static_cast<int>(c[plane.vertical] + reach) + 2); ++b)
-      for (int a = std::max(0, static_cast<int>(c.x() - reach)); a < std::min(width, static_cast<int>(c.x() + reach) + 2); ++a) {
+    for (int b = std::max(0, static_cast<int>(c[plane.vertical] - reach));
+         b < std::min(height, static_cast<int>(c[plane.vertical] + reach) + 2); ++b)
+      for (int a = std::max(0, static_cast<int>(c.x() - reach));
+           a < std::min(width, static_cast<int>(c.x() + reach) + 2); ++a) {
         const double r = std::sqrt(off * off + std::pow(a - c.x(), 2) + std::pow(b - c[plane.vertical], 2));
         if (r < reach) model.at<double>(b, a) += ball_profile(std::max(r, 0.1), radius, blur).value;
       }
   }
-  const double base = segmentation.bright_beads ? levels.dark : levels.bright, sign = segmentation.bright_beads ? 1.0 : -1.0;
+  const double base = segmentation.bright_beads ? levels.dark : levels.bright,
+               sign = segmentation.bright_beads ? 1.0 : -1.0;
   return picture(volume, plane, [&](std::size_t a, std::size_t b) {
     const double modelled = base + sign * edge * model.at<double>(static_cast<int>(b), static_cast<int>(a));
     return 0.5 + 0.5 * (pixel(volume, plane, a, b) - modelled) / edge;
@@ -139,12 +152,17 @@ cv::Mat fractional_positions(const Volume& volume, const std::vector<Bead>& bead
       const double voxel = (bead.centre[axis] - volume.origin[axis]) / volume.spacing;
       ++counts[static_cast<std::size_t>(std::min(bins - 1.0, bins * (voxel - std::floor(voxel))))];
     }
-    const double highest = std::max(mean + band, static_cast<double>(*std::max_element(counts.begin(), counts.end())));
-    const auto level = [&](double count) { return base - static_cast<int>(std::lround(tall * std::max(0.0, count) / highest)); };
+    const double highest =
+        std::max(mean + band, static_cast<double>(*std::max_element(counts.begin(), counts.end())));
+    const auto level = [&](double count) {
+      return base - static_cast<int>(std::lround(tall * std::max(0.0, count) / highest));
+    };
     const int left = axis * panel + 40;
-    cv::rectangle(image, {left, level(mean + band)}, {left + bins * bar, level(mean - band)}, pale, cv::FILLED);
+    cv::rectangle(image, {left, level(mean + band)}, {left + bins * bar, level(mean - band)}, pale,
+                  cv::FILLED);
     for (int n = 0; n < bins; ++n)
-      cv::rectangle(image, {left + n * bar + 1, level(counts[static_cast<std::size_t>(n)])}, {left + (n + 1) * bar - 2, base}, blue, cv::FILLED);
+      cv::rectangle(image, {left + n * bar + 1, level(counts[static_cast<std::size_t>(n)])},
+                    {left + (n + 1) * bar - 2, base}, blue, cv::FILLED);
     cv::line(image, {left, base}, {left + bins * bar, base}, dark, 1);
     const auto text = [&](const std::string& words, int x, int y) {
       cv::putText(image, words, {x, y}, cv::FONT_HERSHEY_SIMPLEX, 0.5, dark, 1, cv::LINE_AA);

@@ -1,11 +1,11 @@
 #include "segmentation/itk_images.h"
 
+#include <fcntl.h>
 #include <itkMetaImageIO.h>
 #include <itkNrrdImageIO.h>
 #include <itkPNGImageIO.h>
 #include <itkTIFFImageIO.h>
 #include <unistd.h>
-#include <fcntl.h>
 
 #include <algorithm>
 #include <atomic>
@@ -53,7 +53,8 @@ class QuietLibraries {
 
 std::string lower_extension(const fs::path& path) {
   std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   return extension;
 }
 
@@ -65,8 +66,10 @@ itk::ImageIOBase::Pointer reader_of(const fs::path& path) {
   if (extension == ".tif" || extension == ".tiff") io = itk::TIFFImageIO::New();
   if (extension == ".png") io = itk::PNGImageIO::New();
   if (!io)
-    bad_input("{}: found extension '{}', expected .mha, .mhd, .nrrd, .nhdr, .tif, .tiff, a folder of slices, or raw data with --size",
-              path.string(), extension);
+    bad_input(
+        "{}: found extension '{}', expected .mha, .mhd, .nrrd, .nhdr, .tif, .tiff, a folder of slices, or "
+        "raw data with --size",
+        path.string(), extension);
   io->SetFileName(path.string());
   return io;
 }
@@ -92,19 +95,25 @@ void guarded(const fs::path& path, const Call& call) {
 /// The header of one file: grey, of a pixel type that is kept as it is.
 void read_header(itk::ImageIOBase& io, const fs::path& path) {
   guarded(path, [&] {
-    if (!io.CanReadFile(path.c_str())) bad_input("{}: found no image of the kind its name says, expected one", path.string());
+    if (!io.CanReadFile(path.c_str()))
+      bad_input("{}: found no image of the kind its name says, expected one", path.string());
     io.ReadImageInformation();
   });
   if (io.GetNumberOfComponents() != 1 || io.GetPixelType() != itk::IOPixelEnum::SCALAR)
-    bad_input("{}: found {} components per voxel, expected one (grey)", path.string(), io.GetNumberOfComponents());
+    bad_input("{}: found {} components per voxel, expected one (grey)", path.string(),
+              io.GetNumberOfComponents());
 }
 
 Volume::Pixels pixels_of(itk::IOComponentEnum type, const fs::path& path) {
   switch (type) {
-    case itk::IOComponentEnum::UCHAR: return std::vector<std::uint8_t>();
-    case itk::IOComponentEnum::USHORT: return std::vector<std::uint16_t>();
-    case itk::IOComponentEnum::FLOAT: return std::vector<float>();
-    case itk::IOComponentEnum::UINT: return std::vector<std::uint32_t>();
+    case itk::IOComponentEnum::UCHAR:
+      return std::vector<std::uint8_t>();
+    case itk::IOComponentEnum::USHORT:
+      return std::vector<std::uint16_t>();
+    case itk::IOComponentEnum::FLOAT:
+      return std::vector<float>();
+    case itk::IOComponentEnum::UINT:
+      return std::vector<std::uint32_t>();
     default:
       bad_input("{}: found pixel type {}, expected unsigned 8 or 16 bit or float", path.string(),
                 itk::ImageIOBase::GetComponentTypeAsString(type));
@@ -126,18 +135,18 @@ char* bytes(Volume& volume) {
   return std::visit([](auto& pixels) { return reinterpret_cast<char*>(pixels.data()); }, volume.pixels);
 }
 
-/// Makes room for the pixels. A header may claim any size; what compression cannot have shrunk to `data_bytes`
-/// is not there.
+/// Makes room for the pixels. A header may claim any size; what compression cannot have shrunk to
+/// `data_bytes` is not there.
 void allocate(Volume& volume, const fs::path& path, std::uintmax_t data_bytes) {
   constexpr double deflate_limit = 1032.0;
   double claimed = static_cast<double>(bytes_per_voxel(volume));
   for (const std::size_t n : volume.size) claimed *= static_cast<double>(n);
   if (claimed < 1.0)
-    bad_input("{}: found a volume of {} x {} x {} voxels, expected at least one", path.string(), volume.size[0],
-              volume.size[1], volume.size[2]);
-  if (claimed > deflate_limit * static_cast<double>(data_bytes))
-    bad_input("{}: found {} bytes, expected the {:.0f} of {} x {} x {} voxels", path.string(), data_bytes, claimed,
+    bad_input("{}: found a volume of {} x {} x {} voxels, expected at least one", path.string(),
               volume.size[0], volume.size[1], volume.size[2]);
+  if (claimed > deflate_limit * static_cast<double>(data_bytes))
+    bad_input("{}: found {} bytes, expected the {:.0f} of {} x {} x {} voxels", path.string(), data_bytes,
+              claimed, volume.size[0], volume.size[1], volume.size[2]);
   std::visit([&](auto& pixels) { pixels.resize(volume.voxels()); }, volume.pixels);
 }
 
@@ -164,32 +173,39 @@ void check_metaimage_data(const fs::path& header, std::uintmax_t voxel_bytes) {
   const fs::path data = local ? header : header.parent_path() / file;
   std::error_code error;
   const std::uintmax_t size = fs::file_size(data, error);
-  if (error) bad_input("{}: ElementDataFile: found no file '{}', expected the voxels there", header.string(), data.string());
+  if (error)
+    bad_input("{}: ElementDataFile: found no file '{}', expected the voxels there", header.string(),
+              data.string());
   const bool compressed = !field["CompressedData"].empty() && std::toupper(field["CompressedData"][0]) == 'T';
   if (compressed && field["CompressedDataSize"].empty()) return;
-  const std::uintmax_t expected = compressed ? std::strtoull(field["CompressedDataSize"].c_str(), nullptr, 10) : voxel_bytes;
+  const std::uintmax_t expected =
+      compressed ? std::strtoull(field["CompressedDataSize"].c_str(), nullptr, 10) : voxel_bytes;
   std::uintmax_t skipped = local ? static_cast<std::uintmax_t>(in.tellg()) : 0;
   if (!field["HeaderSize"].empty() && !local)
     skipped = std::max(0LL, std::atoll(field["HeaderSize"].c_str()));
   if (size - std::min(size, skipped) != expected)
-    bad_input("{}: found {} bytes of voxels, expected {}: truncated, or DimSize or ElementType do not match", data.string(),
-              size - std::min(size, skipped), expected);
+    bad_input("{}: found {} bytes of voxels, expected {}: truncated, or DimSize or ElementType do not match",
+              data.string(), size - std::min(size, skipped), expected);
 }
 
-/// The length of one header unit, m; µm where the file does not name it.
-double header_unit(itk::ImageIOBase& io, const fs::path& path) {
-  const auto& dictionary = io.GetMetaDataDictionary();
-  for (const auto& key : dictionary.GetKeys()) {
-    if (key.find("units") == std::string::npos) continue;
-    std::string unit;
-    if (!itk::ExposeMetaData<std::string>(dictionary, key, unit)) continue;
-    static const std::map<std::string, double> known = {{"m", 1.0},      {"cm", 1e-2},      {"mm", 1e-3},
-                                                        {"um", 1e-6},    {"\u00b5m", 1e-6}, {"\u03bcm", 1e-6},
-                                                        {"micron", 1e-6}, {"microns", 1e-6}, {"nm", 1e-9}};
-    unit.erase(std::remove_if(unit.begin(), unit.end(), [](char c) { return c == '"' || c == ' '; }), unit.end());
-    if (unit.empty()) continue;
+/// The length of one header unit, m; µm where the file does not name it. ITK does not pass on an NRRD's
+/// units.
+double header_unit(const fs::path& path) {
+  const std::string extension = lower_extension(path);
+  if (extension != ".nrrd" && extension != ".nhdr") return 1e-6;
+  static const std::map<std::string, double> known = {{"m", 1.0},       {"cm", 1e-2},      {"mm", 1e-3},
+                                                      {"um", 1e-6},     {"\u00b5m", 1e-6}, {"\u03bcm", 1e-6},
+                                                      {"micron", 1e-6}, {"microns", 1e-6}, {"nm", 1e-9}};
+  std::ifstream in(path, std::ios::binary);
+  for (std::string line; std::getline(in, line) && !line.empty() && line != "\r";) {
+    if (line.rfind("space units:", 0) != 0 && line.rfind("units:", 0) != 0) continue;
+    const auto first = line.find('"');
+    const auto last = line.find('"', first + 1);
+    const std::string unit = last == std::string::npos ? "" : line.substr(first + 1, last - first - 1);
     const auto found = known.find(unit);
-    if (found == known.end()) bad_input("{}: found length unit '{}', expected m, cm, mm, um or nm", path.string(), unit);
+    if (found == known.end())
+      bad_input("{}: {}: found no known length unit, expected \"m\", \"cm\", \"mm\", \"um\" or \"nm\"",
+                path.string(), line);
     return found->second;
   }
   return 1e-6;
@@ -199,21 +215,26 @@ double header_unit(itk::ImageIOBase& io, const fs::path& path) {
 void place(Volume& volume, itk::ImageIOBase* io, const fs::path& path, const ReadOptions& options) {
   std::optional<double> spacing = options.spacing;
   if (io) {
-    const double unit = header_unit(*io, path);
+    const double unit = header_unit(path);
     const double first = io->GetSpacing(0);
     for (unsigned axis = 0; axis < 3; ++axis)
       if (!options.spacing && !(std::abs(io->GetSpacing(axis) - first) <= 1e-3 * std::abs(first)))
-        bad_input("{}: found voxels of {} x {} x {}, expected cubic ones (or the edge by --voxel-um)", path.string(),
-                  io->GetSpacing(0), io->GetSpacing(1), io->GetSpacing(2));
+        bad_input("{}: found voxels of {} x {} x {}, expected cubic ones (or the edge by --voxel-um)",
+                  path.string(), io->GetSpacing(0), io->GetSpacing(1), io->GetSpacing(2));
     const bool stated = std::abs(first) > 0.0 && first != 1.0;
     if (!spacing && stated) spacing = std::abs(first) * unit;
     for (unsigned axis = 0; axis < 3; ++axis)  // an offset in voxels follows an overriding voxel size
-      volume.origin[axis] = stated && spacing ? io->GetOrigin(axis) / std::abs(first) * *spacing : io->GetOrigin(axis) * unit;
+      volume.origin[axis] =
+          stated && spacing ? io->GetOrigin(axis) / std::abs(first) * *spacing : io->GetOrigin(axis) * unit;
   }
-  if (!spacing) warn(fmt::format("{}: no voxel size in the file and no --voxel-um: taken as 1 um, so lengths are in voxels", path.string()));
+  if (!spacing)
+    warn(fmt::format(
+        "{}: no voxel size in the file and no --voxel-um: taken as 1 um, so lengths are in voxels",
+        path.string()));
   volume.spacing = spacing.value_or(1e-6);
   if (!(volume.spacing > 0.0) || !std::isfinite(volume.spacing))
-    bad_input("{}: found a voxel size of {} um, expected a positive number", path.string(), volume.spacing * 1e6);
+    bad_input("{}: found a voxel size of {} um, expected a positive number", path.string(),
+              volume.spacing * 1e6);
 }
 
 void read_pixels(itk::ImageIOBase& io, const fs::path& path, char* target) {
@@ -231,7 +252,8 @@ Volume read_one_file(const fs::path& path, const ReadOptions& options) {
   read_header(*io, path);
   unsigned dimensions = io->GetNumberOfDimensions();
   while (dimensions > 3 && io->GetDimensions(dimensions - 1) == 1) --dimensions;
-  if (dimensions != 3) bad_input("{}: found an image of {} dimensions, expected 3", path.string(), dimensions);
+  if (dimensions != 3)
+    bad_input("{}: found an image of {} dimensions, expected 3", path.string(), dimensions);
   Volume volume;
   volume.pixels = pixels_of(io->GetComponentType(), path);
   for (unsigned axis = 0; axis < 3; ++axis) volume.size[axis] = io->GetDimensions(axis);
@@ -272,7 +294,8 @@ SliceName slice_name(const fs::path& path) {
   name.prefix = text.substr(0, first);
   name.suffix = text.substr(last + 1);
   const std::string digits = text.substr(first, last + 1 - first);
-  if (digits.size() > 15) bad_input("{}: found a slice number of {} digits, expected at most 15", path.string(), digits.size());
+  if (digits.size() > 15)
+    bad_input("{}: found a slice number of {} digits, expected at most 15", path.string(), digits.size());
   name.number = std::stoll(digits);
   return name;
 }
@@ -286,14 +309,17 @@ std::vector<SliceName> slices_of(const fs::path& folder) {
     if (image && entry.is_regular_file() && entry.path().filename().string().front() != '.')
       slices.push_back(slice_name(entry.path()));
   }
-  if (slices.size() < 2) bad_input("{}: found {} TIFF or PNG slices, expected at least two", folder.string(), slices.size());
+  if (slices.size() < 2)
+    bad_input("{}: found {} TIFF or PNG slices, expected at least two", folder.string(), slices.size());
   std::sort(slices.begin(), slices.end(), [](const SliceName& a, const SliceName& b) {
     return std::tie(a.prefix, a.number, a.suffix) < std::tie(b.prefix, b.number, b.suffix);
   });
   long long step = slices[1].number - slices[0].number;
-  for (std::size_t k = 1; k < slices.size(); ++k) step = std::min(step, slices[k].number - slices[k - 1].number);
+  for (std::size_t k = 1; k < slices.size(); ++k)
+    step = std::min(step, slices[k].number - slices[k - 1].number);
   for (std::size_t k = 1; k < slices.size(); ++k) {
-    const std::string name = slices[k].path.filename().string(), before = slices[k - 1].path.filename().string();
+    const std::string name = slices[k].path.filename().string(),
+                      before = slices[k - 1].path.filename().string();
     if (slices[k].prefix != slices[0].prefix || slices[k].suffix != slices[0].suffix)
       bad_input("{}: found '{}' beside '{}', expected slices of one series", folder.string(), name, before);
     if (step < 1 || slices[k].number - slices[k - 1].number != step)
@@ -320,10 +346,11 @@ Volume read_slices(const fs::path& folder, const ReadOptions& options) {
       allocate(volume, path, slices.size() * fs::file_size(path));
     }
     if (io->GetDimensions(0) != volume.size[0] || io->GetDimensions(1) != volume.size[1])
-      bad_input("{}: found a slice of {} x {}, expected {} x {} as the first", path.string(), io->GetDimensions(0),
-                io->GetDimensions(1), volume.size[0], volume.size[1]);
+      bad_input("{}: found a slice of {} x {}, expected {} x {} as the first", path.string(),
+                io->GetDimensions(0), io->GetDimensions(1), volume.size[0], volume.size[1]);
     if (pixels.index() != volume.pixels.index())
-      bad_input("{}: found another pixel type, expected {} as in the first slice", path.string(), pixel_type(volume));
+      bad_input("{}: found another pixel type, expected {} as in the first slice", path.string(),
+                pixel_type(volume));
     read_pixels(*io, path, bytes(volume) + k * volume.size[0] * volume.size[1] * bytes_per_voxel(volume));
     progress.update(static_cast<double>(k + 1));
   }
@@ -335,13 +362,14 @@ Volume read_raw(const fs::path& path, const ReadOptions& options) {
   Volume volume;
   volume.size = *options.raw_size;
   volume.pixels = pixels_of(options.raw_type);
-  if (!options.spacing) throw BadUsage("--voxel-um: found nothing, expected the voxel size of headerless data");
+  if (!options.spacing)
+    throw BadUsage("--voxel-um: found nothing, expected the voxel size of headerless data");
   double expected = static_cast<double>(bytes_per_voxel(volume));
   for (const std::size_t n : volume.size) expected *= static_cast<double>(n);
   const auto size = fs::file_size(path);
   if (static_cast<double>(size) != expected)
-    bad_input("{}: found {} bytes, expected {:.0f} for {} x {} x {} voxels of {}", path.string(), size, expected, volume.size[0],
-              volume.size[1], volume.size[2], options.raw_type);
+    bad_input("{}: found {} bytes, expected {:.0f} for {} x {} x {} voxels of {}", path.string(), size,
+              expected, volume.size[0], volume.size[1], volume.size[2], options.raw_type);
   allocate(volume, path, size);
   place(volume, nullptr, path, options);
   std::ifstream in(path, std::ios::binary);
@@ -364,12 +392,15 @@ void check_pixels(const Volume& volume, const fs::path& path) {
           if (here == pixels.size() && !std::isfinite(pixels[k])) here = k;
       }
       if (differs) varies = true;
-      for (std::size_t least = bad; here < least && !bad.compare_exchange_weak(least, here);) {}
+      for (std::size_t least = bad; here < least && !bad.compare_exchange_weak(least, here);) {
+      }
     });
     if (bad < pixels.size())
-      bad_input("{}: voxel ({}, {}, {}): found NaN or infinity, expected a number", path.string(), bad % volume.size[0],
-                bad / volume.size[0] % volume.size[1], bad / (volume.size[0] * volume.size[1]));
-    if (!varies) bad_input("{}: found one grey value throughout ({}), expected beads", path.string(), pixels[0]);
+      bad_input("{}: voxel ({}, {}, {}): found NaN or infinity, expected a number", path.string(),
+                bad % volume.size[0], bad / volume.size[0] % volume.size[1],
+                bad / (volume.size[0] * volume.size[1]));
+    if (!varies)
+      bad_input("{}: found one grey value throughout ({}), expected beads", path.string(), pixels[0]);
   });
 }
 
@@ -377,7 +408,8 @@ void check_pixels(const Volume& volume, const fs::path& path) {
 
 Volume read_volume(const fs::path& path, const ReadOptions& options) {
   require_readable(path, true);
-  if (options.raw_size && fs::is_directory(path)) throw BadUsage("--size: found a folder of slices, expected headerless data");
+  if (options.raw_size && fs::is_directory(path))
+    throw BadUsage("--size: found a folder of slices, expected headerless data");
   Volume volume = fs::is_directory(path) ? read_slices(path, options)
                   : options.raw_size     ? read_raw(path, options)
                                          : read_one_file(path, options);

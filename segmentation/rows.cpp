@@ -9,8 +9,8 @@
 
 namespace pendular {
 
-std::pair<std::size_t, std::size_t> row_within(const Volume& volume, const std::optional<Specimen>& specimen, std::size_t j,
-                                               std::size_t k) {
+std::pair<std::size_t, std::size_t> row_within(const Volume& volume, const std::optional<Specimen>& specimen,
+                                               std::size_t j, std::size_t k) {
   if (!specimen) return {0, volume.size[0]};
   const double z = volume.origin.z() + volume.spacing * static_cast<double>(k);
   const double y = volume.origin.y() + volume.spacing * static_cast<double>(j) - specimen->axis_y;
@@ -23,7 +23,8 @@ std::pair<std::size_t, std::size_t> row_within(const Volume& volume, const std::
   return {static_cast<std::size_t>(first), static_cast<std::size_t>(last)};
 }
 
-double porosity_of(const Volume& volume, const std::optional<Specimen>& specimen, double threshold, bool bright_beads) {
+double porosity_of(const Volume& volume, const std::optional<Specimen>& specimen, double threshold,
+                   bool bright_beads) {
   std::vector<std::size_t> air(volume.size[2], 0), all(volume.size[2], 0);
   with_pixels(volume, [&](auto pixels) {
     for_blocks(volume.size[2], 1, [&](std::size_t k, std::size_t) {
@@ -31,7 +32,8 @@ double porosity_of(const Volume& volume, const std::optional<Specimen>& specimen
         const auto [first, last] = row_within(volume, specimen, j, k);
         const auto* row = pixels.data() + (k * volume.size[1] + j) * volume.size[0];
         all[k] += last - first;
-        for (std::size_t i = first; i < last; ++i) air[k] += (static_cast<double>(row[i]) > threshold) != bright_beads;
+        for (std::size_t i = first; i < last; ++i)
+          air[k] += (static_cast<double>(row[i]) > threshold) != bright_beads;
       }
     });
   });

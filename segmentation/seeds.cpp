@@ -11,7 +11,8 @@
 namespace pendular {
 namespace {
 
-/// Nodes that no neighbour among 26 exceeds, with a distance above `least` nodes; of equal neighbours the first.
+/// Nodes that no neighbour among 26 exceeds, with a distance above `least` nodes; of equal neighbours the
+/// first.
 std::vector<std::size_t> maxima(const Grid<float>& distance, double least) {
   const auto& size = distance.size;
   std::vector<std::vector<std::size_t>> found(size[2]);
@@ -29,7 +30,8 @@ std::vector<std::size_t> maxima(const Grid<float>& distance, double least) {
   for_blocks(size[2], 1, [&](std::size_t k, std::size_t) {
     for (std::size_t j = 0; j < size[1]; ++j)
       for (std::size_t i = 0; i < size[0]; ++i)
-        if (const std::size_t n = distance.index(i, j, k); distance.values[n] > least && highest(i, j, k)) found[k].push_back(n);
+        if (const std::size_t n = distance.index(i, j, k); distance.values[n] > least && highest(i, j, k))
+          found[k].push_back(n);
   });
   std::vector<std::size_t> all;
   for (const auto& slice : found) all.insert(all.end(), slice.begin(), slice.end());
@@ -82,7 +84,8 @@ std::vector<Seed> find_seeds(const Grid<std::uint8_t>& mask, double least_radius
   if (candidates.empty()) return seeds;
   SeedCells accepted(1.5 * factor * distance.values[candidates.front()]);
   for (const std::size_t n : candidates) {
-    const std::size_t i = n % mask.size[0], j = n / mask.size[0] % mask.size[1], k = n / (mask.size[0] * mask.size[1]);
+    const std::size_t i = n % mask.size[0], j = n / mask.size[0] % mask.size[1],
+                      k = n / (mask.size[0] * mask.size[1]);
     const Seed seed{mask.at(i, j, k), factor * distance.values[n]};
     if (accepted.rejects(seed)) continue;
     accepted.add(seed);

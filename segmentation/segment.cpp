@@ -17,7 +17,8 @@ namespace {
 
 double quality_of(const BallFit& fit, const Noise& noise) {
   constexpr double half_quality = 0.15;
-  const double misfit_squared = std::max(0.0, fit.residual * fit.residual - noise.sd * noise.sd) / (fit.ball.contrast * fit.ball.contrast);
+  const double misfit_squared = std::max(0.0, fit.residual * fit.residual - noise.sd * noise.sd) /
+                                (fit.ball.contrast * fit.ball.contrast);
   return 1.0 / (1.0 + misfit_squared / (half_quality * half_quality));
 }
 
@@ -37,7 +38,8 @@ std::vector<Bead> beads_of(const Volume& volume, const FittedBeads& fitted) {
     beads.push_back(bead);
   }
   std::sort(beads.begin(), beads.end(), [](const Bead& a, const Bead& b) {
-    return std::make_tuple(a.centre.z(), a.centre.y(), a.centre.x()) < std::make_tuple(b.centre.z(), b.centre.y(), b.centre.x());
+    return std::make_tuple(a.centre.z(), a.centre.y(), a.centre.x()) <
+           std::make_tuple(b.centre.z(), b.centre.y(), b.centre.x());
   });
   for (std::size_t n = 0; n < beads.size(); ++n) beads[n].id = static_cast<std::int64_t>(n) + 1;
   return beads;
@@ -58,9 +60,11 @@ std::vector<Bead> grains_of(const Volume& volume, const FittedBeads& fitted) {
 
 void add_warnings(Segmentation& result) {
   if (result.grains.size() > result.beads.size())
-    result.warnings.push_back(fmt::format("{} bodies have no ball's edge, against {} beads: irregular grains, or the other tone (--beads)?",
-                                          result.grains.size(), result.beads.size()));
-  if (!result.specimen) result.warnings.push_back("no container seen: porosity is of the whole picture, walls are not known");
+    result.warnings.push_back(fmt::format(
+        "{} bodies have no ball's edge, against {} beads: irregular grains, or the other tone (--beads)?",
+        result.grains.size(), result.beads.size()));
+  if (!result.specimen)
+    result.warnings.push_back("no container seen: porosity is of the whole picture, walls are not known");
 }
 
 /// The container's inside; where the beads end free, up to the outermost bead.
@@ -77,7 +81,8 @@ Specimen specimen_of(const Volume& volume, const Container& container, const std
   specimen.axis_x = place(container.axis_x, 0);
   specimen.axis_y = place(container.axis_y, 1);
   specimen.bottom = container.bottom ? place(*container.bottom, 2) : std::max(lowest, place(-0.5, 2));
-  specimen.height = (container.top ? place(*container.top, 2) : std::min(highest, place(last, 2))) - specimen.bottom;
+  specimen.height =
+      (container.top ? place(*container.top, 2) : std::min(highest, place(last, 2))) - specimen.bottom;
   return specimen;
 }
 
@@ -104,17 +109,22 @@ void flag_boundaries(const Volume& volume, Segmentation& result) {
 
 Segmentation segment(const Volume& volume, const SegmentOptions& options) {
   for (const std::size_t n : volume.size)
-    if (n < 16) bad_input("volume of {} x {} x {} voxels, expected at least 16 along each axis", volume.size[0], volume.size[1], volume.size[2]);
+    if (n < 16)
+      bad_input("volume of {} x {} x {} voxels, expected at least 16 along each axis", volume.size[0],
+                volume.size[1], volume.size[2]);
   Segmentation result;
-  result.levels = grey_levels(histogram_of(volume));
-  stop_if_interrupted();
   std::optional<double> least_radius;
   if (options.least_diameter) least_radius = 0.5 * *options.least_diameter / volume.spacing;
-  const BeadSearch search = search_beads(volume, result.levels, options.tone, least_radius);
-  const FittedBeads fitted = fit_beads(volume, result.levels, search, options.cutoff);
+  const BeadSearch search = search_beads(volume, options.tone, least_radius, [&](const BeadSearch& tried) {
+    return ball_share(volume, tried, options.cutoff);
+  });
+  const FittedBeads fitted = fit_beads(volume, search, options.cutoff);
   if (fitted.fits.empty())
-    bad_input("no beads found: {} bodies looked at in a volume of {} x {} x {} voxels, none with the edge of a ball", search.seeds.size(),
-              volume.size[0], volume.size[1], volume.size[2]);
+    bad_input(
+        "no beads found: {} bodies looked at in a volume of {} x {} x {} voxels, none with the edge of a "
+        "ball",
+        search.seeds.size(), volume.size[0], volume.size[1], volume.size[2]);
+  result.levels = search.levels;
   result.bright_beads = search.bright;
   result.beads = beads_of(volume, fitted);
   if (search.container) result.specimen = specimen_of(volume, *search.container, result.beads);

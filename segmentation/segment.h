@@ -11,24 +11,25 @@
 namespace pendular {
 
 struct SegmentOptions {
-  double cutoff = 0.064;                  ///< candidate bridges have gaps below cutoff × mean diameter
-  BeadTone tone = BeadTone::automatic;    ///< of the beads against what surrounds them
-  std::optional<double> least_diameter;   ///< m; none: 0.4 of the typical one
+  double cutoff = 0.064;                 ///< candidate bridges have gaps below cutoff × mean diameter
+  BeadTone tone = BeadTone::automatic;   ///< of the beads against what surrounds them
+  std::optional<double> least_diameter;  ///< m; none: 0.4 of the typical one
 };
 
 /// A tomogram taken apart. Lengths in m, positions in the volume's own frame.
 struct Segmentation {
-  std::vector<Bead> beads;             ///< ids from 1, by rising z
-  std::vector<Bridge> bridges;         ///< candidates
-  std::vector<Bead> grains;            ///< bodies too irregular for a ball; place and inscribed diameter, quality 0
-  std::optional<Specimen> specimen;    ///< the inside of the container, where one is seen
+  std::vector<Bead> beads;      ///< ids from 1, by rising z
+  std::vector<Bridge> bridges;  ///< candidates
+  std::vector<Bead> grains;     ///< bodies too irregular for a ball; place and inscribed diameter, quality 0
+  std::optional<Specimen> specimen;  ///< the inside of the container, where one is seen
   GreyLevels levels;
   bool bright_beads = true;
-  double porosity = 0.0;               ///< share of voxels on the air side of the threshold, in the specimen or else the volume
-  double blur = 0.0;                   ///< standard deviation of the point spread with the voxel's own, m
-  double noise = 0.0;                  ///< standard deviation, over the classes' difference
-  double noise_correlation = 0.0;      ///< of neighbouring voxels
-  std::size_t rejected = 0;            ///< places looked at that turned out to be no bead
+  double porosity =
+      0.0;  ///< share of voxels on the air side of the threshold, in the specimen or else the volume
+  double blur = 0.0;               ///< standard deviation of the point spread with the voxel's own, m
+  double noise = 0.0;              ///< standard deviation, over the classes' difference
+  double noise_correlation = 0.0;  ///< of neighbouring voxels
+  std::size_t rejected = 0;        ///< places looked at that turned out to be no bead
   std::vector<std::string> warnings;
 };
 
@@ -38,9 +39,9 @@ struct Segmentation {
 /// BadInput where there is no bead.
 Segmentation segment(const Volume& volume, const SegmentOptions& options = {});
 
-/// Number of the bead for each voxel of bead material (its place in `beads`, from 1; the grains' follow), 0 elsewhere
-/// and outside the specimen. A voxel belongs to the body whose surface is nearest, |x − c| − R least. uint16, or
-/// uint32 beyond 65,535 bodies.
+/// Number of the bead for each voxel of bead material (its place in `beads`, from 1; the grains' follow), 0
+/// elsewhere and outside the specimen. A voxel belongs to the body whose surface is nearest, |x − c| − R
+/// least. uint16, or uint32 beyond 65,535 bodies.
 Volume label_volume(const Volume& volume, const Segmentation& segmentation);
 
 }  // namespace pendular

@@ -23,7 +23,8 @@ std::string pixel_type(const Volume& volume) {
 }
 
 void write_volume(const fs::path& path, const Volume& volume) {
-  if (path.extension() != ".mha") throw BadUsage(fmt::format("{}: found a name that does not end in .mha, expected .mha", path.string()));
+  if (path.extension() != ".mha")
+    throw BadUsage(fmt::format("{}: found a name that does not end in .mha, expected .mha", path.string()));
   write_atomically(path, [&](const fs::path& temporary) {
     auto io = itk::MetaImageIO::New();
     itk::ImageIORegion region(3);
@@ -44,8 +45,14 @@ void write_volume(const fs::path& path, const Volume& volume) {
     try {
       with_pixels(volume, [&](auto pixels) { io->Write(pixels.data()); });
     } catch (const itk::ExceptionObject& error) {
-      throw ComputationFailed(fmt::format("{}: cannot be written: {}", path.string(), error.GetDescription()));
+      throw ComputationFailed(
+          fmt::format("{}: cannot be written: {}", path.string(), error.GetDescription()));
     }
+    // The library does not always say that the disc is full.
+    const auto bytes = with_pixels(volume, [](auto pixels) { return pixels.size_bytes(); });
+    if (!fs::exists(temporary) || fs::file_size(temporary) < bytes)
+      throw ComputationFailed(
+          fmt::format("{}: cannot be written: no space for {} bytes", path.string(), bytes));
   });
 }
 

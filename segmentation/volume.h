@@ -33,7 +33,8 @@ struct Volume {
 /// Calls f with the pixels as a std::span<const T> of their native type.
 template <typename Function>
 decltype(auto) with_pixels(const Volume& volume, Function&& f) {
-  return std::visit([&](const auto& pixels) -> decltype(auto) { return f(std::span(pixels)); }, volume.pixels);
+  return std::visit([&](const auto& pixels) -> decltype(auto) { return f(std::span(pixels)); },
+                    volume.pixels);
 }
 
 /// "uint8", "uint16", "float" or "uint32".
@@ -41,17 +42,17 @@ std::string pixel_type(const Volume& volume);
 
 /// What a file does not say of itself.
 struct ReadOptions {
-  std::optional<double> spacing;                         ///< m; overrides the file's
-  std::optional<std::array<std::size_t, 3>> raw_size;    ///< of a headerless file
-  std::string raw_type;                                  ///< of a headerless file: uint8, uint16 or float, little endian
+  std::optional<double> spacing;                       ///< m; overrides the file's
+  std::optional<std::array<std::size_t, 3>> raw_size;  ///< of a headerless file
+  std::string raw_type;  ///< of a headerless file: uint8, uint16 or float, little endian
 };
 
-/// Reads MetaImage (.mha, .mhd), NRRD, multi-page TIFF, a folder of TIFF or PNG slices in the natural order of
-/// their names (z rising), or, with `raw_size`, a headerless file. Lengths in a header count as µm, unless an
-/// NRRD names another unit; spacing 1 or none means unknown: 1 µm, with a warning.
-/// BadInput, in one line, for whatever does not hold a grey volume of cubic voxels: truncated data, a header
-/// that does not match it, a missing slice, slices of several sizes, colours, other pixel types, NaN or
-/// infinity, or one grey value throughout.
+/// Reads MetaImage (.mha, .mhd), NRRD, multi-page TIFF, a folder of TIFF or PNG slices in the natural order
+/// of their names (z rising), or, with `raw_size`, a headerless file. Lengths in a header count as µm, unless
+/// an NRRD names another unit; spacing 1 or none means unknown: 1 µm, with a warning. BadInput, in one line,
+/// for whatever does not hold a grey volume of cubic voxels: truncated data, a header that does not match it,
+/// a missing slice, slices of several sizes, colours, other pixel types, NaN or infinity, or one grey value
+/// throughout.
 Volume read_volume(const fs::path& path, const ReadOptions& options = {});
 
 /// Writes a MetaImage (.mha) whole or not at all, uncompressed, lengths in µm.

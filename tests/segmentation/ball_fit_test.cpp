@@ -28,16 +28,22 @@ TEST(BallProfile, SlopesAreDerivatives) {
   const double h = 1e-2;
   for (const double r : {18.0, 19.5, 20.5, 22.0}) {
     const BallProfile p = ball_profile(r, 20.0, 1.1);
-    EXPECT_NEAR(p.by_radius, (ball_profile(r, 20.0 + h, 1.1).value - ball_profile(r, 20.0 - h, 1.1).value) / (2 * h), 1e-4);
-    EXPECT_NEAR(p.by_distance, (ball_profile(r + h, 20.0, 1.1).value - ball_profile(r - h, 20.0, 1.1).value) / (2 * h), 1e-4);
-    EXPECT_NEAR(p.by_blur, (ball_profile(r, 20.0, 1.1 + h).value - ball_profile(r, 20.0, 1.1 - h).value) / (2 * h), 1e-4);
+    EXPECT_NEAR(p.by_radius,
+                (ball_profile(r, 20.0 + h, 1.1).value - ball_profile(r, 20.0 - h, 1.1).value) / (2 * h),
+                1e-4);
+    EXPECT_NEAR(p.by_distance,
+                (ball_profile(r + h, 20.0, 1.1).value - ball_profile(r - h, 20.0, 1.1).value) / (2 * h),
+                1e-4);
+    EXPECT_NEAR(p.by_blur,
+                (ball_profile(r, 20.0, 1.1 + h).value - ball_profile(r, 20.0, 1.1 - h).value) / (2 * h),
+                1e-4);
   }
 }
 
 TEST(BallFit, RecoversOneBallFromAnOffStart) {
   const Vec3 centre(24.3, 23.8, 25.1);
   const Volume volume = ball_volume({50, 50, 50}, {{centre, 14.2}}, 1.0, 0.0);
-  const GreyBall start{centre + Vec3(1.0, -1.5, 0.8), 13.0, 0.0, 0.0};
+  const GreyBall start{centre + Vec3(1.0, -1.5, 0.8), 13.0, 15000.0, 8000.0};
   FitSetting setting;
   setting.half_width = 5.0;
   setting.fit_blur = true;
@@ -58,8 +64,9 @@ TEST(BallFit, StandardErrorsMatchTheScatter) {
     Volume volume = ball_volume({33, 33, 33}, {{centre, 9.0}}, 1.0, 0.0);
     auto& pixels = std::get<std::vector<std::uint16_t>>(volume.pixels);
     for (std::size_t n = 0; n < pixels.size(); ++n)
-      pixels[n] = static_cast<std::uint16_t>(pixels[n] + std::lround(2000.0 * random_normal(static_cast<std::uint64_t>(k), n)));
-    const GreyBall start{centre, 9.0, 0.0, 0.0};
+      pixels[n] = static_cast<std::uint16_t>(
+          pixels[n] + std::lround(2000.0 * random_normal(static_cast<std::uint64_t>(k), n)));
+    const GreyBall start{centre, 9.0, 20000.0, 10000.0};
     const BallFit fit = fit_ball(volume, std::span(&start, 1), 0, {}, std::nullopt, {});
     centre_scatter += (fit.ball.centre - centre).squaredNorm() / 3.0 / repeats;
     radius_scatter += std::pow(fit.ball.radius - 9.0, 2) / repeats;
@@ -74,7 +81,8 @@ TEST(BallFit, StandardErrorsMatchTheScatter) {
 TEST(BallFit, NeighbourIsLeftOut) {
   const std::vector<test::TrueBall> truth = {{Vec3(20, 20, 20), 10.0}, {Vec3(40.2, 20, 20), 10.0}};
   const Volume volume = ball_volume({61, 41, 41}, truth, 1.0, 0.0);
-  const std::vector<GreyBall> balls = {{truth[0].centre, 10.0, 0, 0}, {truth[1].centre, 10.0, 0, 0}};
+  const std::vector<GreyBall> balls = {{truth[0].centre, 10.0, 20000.0, 10000.0},
+                                       {truth[1].centre, 10.0, 20000.0, 10000.0}};
   FitSetting setting;
   setting.cone_gap = 1.0;
   const std::vector<int> neighbour = {1};

@@ -20,7 +20,7 @@ struct Comparison {
   int missed = 0, invented = 0;
   double centre_rms = 0.0;  ///< per axis
   double diameter_bias = 0.0;
-  double pull = 0.0;        ///< rms error of the centres over their standard error
+  double pull = 0.0;  ///< rms error of the centres over their standard error
 };
 
 Comparison compare(const std::vector<Bead>& truth, const std::vector<Bead>& found, double voxel) {
@@ -54,23 +54,44 @@ struct PhantomCase {
   double voxel_um, noise, correlated_noise, contrast, centre_rms, bias;
 };
 
+void PrintTo(const PhantomCase& c, std::ostream* out) {
+  *out << c.name;
+}
+
 class OnPhantom : public testing::TestWithParam<PhantomCase> {};
+
+Sample small_sample() {
+  Sample sample;
+  sample.specimen.diameter = sample.specimen.height = 1.2e-3;
+  sample.specimen.volume_fraction = 0.52;
+  return sample;
+}
+
+/// Beads and bridges with polymer, the same for every case.
+const Packing& small_packing() {
+  static const Packing made = [] {
+    const Sample sample = small_sample();
+    Packing packing = generate_packing(sample, 1);
+    packing.bridges = candidate_bridges(packing.beads, sample.bridges.cutoff * mean_diameter(packing.beads));
+    draw_neck_diameters(packing, sample, 1);
+    return packing;
+  }();
+  return made;
+}
 
 TEST_P(OnPhantom, FindsEveryBead) {
   const PhantomCase& c = GetParam();
-  Sample sample;
-  sample.specimen.diameter = sample.specimen.height = 1.2e-3;
-  sample.specimen.volume_fraction = 0.57;
+  Sample sample = small_sample();
   sample.phantom.voxel = c.voxel_um * 1e-6;
   sample.phantom.noise = c.noise;
   sample.phantom.correlated_noise = c.correlated_noise;
   sample.phantom.polymer_contrast = c.contrast;
-  Packing packing = generate_packing(sample, 1);
-  packing.bridges = candidate_bridges(packing.beads, sample.bridges.cutoff * mean_diameter(packing.beads));
-  draw_neck_diameters(packing, sample, 1);
+  const Packing& packing = small_packing();
   const Volume volume = make_phantom(packing, sample.phantom, 1);
   const Segmentation found = segment(volume);
   const Comparison result = compare(packing.beads, found.beads, volume.spacing);
+  SCOPED_TRACE(fmt::format("centre rms {:.4f}, diameter bias {:.4f} voxels, pull {:.2f}", result.centre_rms,
+                           result.diameter_bias, result.pull));
   EXPECT_EQ(result.missed, 0);
   EXPECT_EQ(result.invented, 0);
   EXPECT_LT(result.centre_rms, c.centre_rms);
@@ -90,12 +111,13 @@ INSTANTIATE_TEST_SUITE_P(Segment, OnPhantom,
                          testing::Values(PhantomCase{"Across40", 5.0, 0.1, 0.0, 0.3, 0.02, 0.02},
                                          PhantomCase{"Across20", 10.0, 0.1, 0.0, 0.3, 0.04, 0.05},
                                          PhantomCase{"Noisy", 8.0, 0.3, 0.0, 0.3, 0.1, 0.1},
-                                         PhantomCase{"CorrelatedNoise", 8.0, 0.05, 0.1, 0.3, 0.1, 0.1},
+                                         PhantomCase{"CorrelatedNoise", 8.0, 0.05, 0.05, 0.3, 0.1, 0.1},
                                          PhantomCase{"BrightPolymer", 8.0, 0.1, 0.0, 0.45, 0.05, 0.05}),
                          [](const auto& which) { return which.param.name; });
 
 TEST(Segment, LabelsBelongToTheNearestBall) {
-  const std::vector<test::TrueBall> balls = {{Vec3(20, 20, 20), 9.0}, {Vec3(40, 20, 20), 10.0}, {Vec3(30, 38, 22), 9.5}};
+  const std::vector<test::TrueBall> balls = {
+      {Vec3(20, 20, 20), 9.0}, {Vec3(40, 20, 20), 10.0}, {Vec3(30, 38, 22), 9.5}};
   const Volume volume = test::ball_volume({60, 60, 44}, balls, 1.0, 0.05);
   const Segmentation found = segment(volume);
   ASSERT_EQ(found.beads.size(), 3u);
@@ -106,7 +128,8 @@ TEST(Segment, LabelsBelongToTheNearestBall) {
   for (std::size_t n = 0; n < found.beads.size(); ++n) {
     const double count = static_cast<double>(std::count(pixels.begin(), pixels.end(), n + 1));
     const double radius = 0.5 * found.beads[n].diameter / volume.spacing;
-    EXPECT_NEAR(count / (4.0 / 3.0 * M_PI * std::pow(radius, 3)), 1.0, 0.02);
+    const double half_way = radius - 1.0 / radius;  // the blur of 1 voxel draws the half-way level in by s²/R
+    EXPECT_NEAR(count / (4.0 / 3.0 * M_PI * std::pow(half_way, 3)), 1.0, 0.015);
   }
   const test::ScratchFolder folder;
   write_qa(folder.path(), volume, found);
@@ -115,7 +138,8 @@ TEST(Segment, LabelsBelongToTheNearestBall) {
 }
 
 TEST(Segment, FindsDarkBeadsByItself) {
-  const std::vector<test::TrueBall> balls = {{Vec3(20, 20, 20), 9.0}, {Vec3(40, 20, 22), 6.0}, {Vec3(30, 38, 22), 9.5}};
+  const std::vector<test::TrueBall> balls = {
+      {Vec3(20, 20, 20), 9.0}, {Vec3(40, 20, 22), 6.0}, {Vec3(30, 38, 22), 9.5}};
   const Segmentation found = segment(test::ball_volume({60, 60, 44}, balls, 1.0, 0.05, 40000.0, -20000.0));
   EXPECT_FALSE(found.bright_beads);
   EXPECT_EQ(found.beads.size(), 3u);
@@ -147,9 +171,12 @@ TEST(Segment, FinneysPacking) {
     truth.back().diameter = 2e-6 * radius;
   }
   std::array<std::size_t, 3> size;
-  for (int axis = 0; axis < 3; ++axis) size[axis] = static_cast<std::size_t>(high[axis] - low[axis] + 2.0 * radius + 9.0);
+  for (int axis = 0; axis < 3; ++axis)
+    size[axis] = static_cast<std::size_t>(high[axis] - low[axis] + 2.0 * radius + 9.0);
   const Segmentation found = segment(test::ball_volume(size, balls, 1.0, 0.05));
   const Comparison result = compare(truth, found.beads, 1e-6);
+  SCOPED_TRACE(fmt::format("centre rms {:.4f}, diameter bias {:.4f} voxels, pull {:.2f}", result.centre_rms,
+                           result.diameter_bias, result.pull));
   EXPECT_EQ(result.missed, 0);
   EXPECT_EQ(result.invented, 0);
   EXPECT_LT(result.centre_rms, 0.05);
@@ -157,12 +184,13 @@ TEST(Segment, FinneysPacking) {
 }
 
 TEST(Segment, SteelOfIrregularGrains) {
-  const auto raw = test::shared_data("steel_ct/steel_raw_100.mha"), truth = test::shared_data("steel_ct/steel_bw_pore_white_100.mha");
+  const auto raw = test::shared_data("steel_ct/steel_raw_100.mha"),
+             truth = test::shared_data("steel_ct/steel_bw_pore_white_100.mha");
   if (!raw || !truth) GTEST_SKIP() << "no trial data (steel_ct)";
-  SegmentOptions options;
-  options.tone = BeadTone::bright;
   const Volume volume = read_volume(*raw);
-  const Segmentation found = segment(volume, options);
+  const Segmentation found = segment(volume);
+  EXPECT_TRUE(found.bright_beads);
+  EXPECT_FALSE(found.grains.empty());
   EXPECT_NEAR(found.porosity, 0.380, 0.01);
   const Volume labels = label_volume(volume, found), mask = read_volume(*truth);
   const auto& ours = std::get<std::vector<std::uint16_t>>(labels.pixels);

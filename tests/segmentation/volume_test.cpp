@@ -30,7 +30,9 @@ std::string error_of(const fs::path& path, const ReadOptions& options = {}) {
   return "";
 }
 
-void write_bytes(const fs::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+void write_bytes(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
 
 std::string bytes_of(const Volume& volume) {
   return with_pixels(volume, [](auto pixels) {
@@ -40,9 +42,11 @@ std::string bytes_of(const Volume& volume) {
 
 TEST(Volume, MetaImageComesBackAsItWas) {
   const ScratchFolder folder;
-  for (const Volume::Pixels& pixels : std::vector<Volume::Pixels>{
-           std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8}, std::vector<std::uint16_t>{1, 2, 3, 4, 5, 6, 7, 60000},
-           std::vector<float>{1, 2, 3, 4, 5, 6, 7, -1.5f}, std::vector<std::uint32_t>{1, 2, 3, 4, 5, 6, 7, 70000}}) {
+  for (const Volume::Pixels& pixels :
+       std::vector<Volume::Pixels>{std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8},
+                                   std::vector<std::uint16_t>{1, 2, 3, 4, 5, 6, 7, 60000},
+                                   std::vector<float>{1, 2, 3, 4, 5, 6, 7, -1.5f},
+                                   std::vector<std::uint32_t>{1, 2, 3, 4, 5, 6, 7, 70000}}) {
     const Volume volume{{2, 2, 2}, 2.5e-6, Vec3(1e-6, 2e-6, -3e-6), pixels};
     write_volume(folder / "a.mha", volume);
     const Volume read = read_volume(folder / "a.mha");
@@ -60,14 +64,16 @@ TEST(Volume, HeaderlessData) {
   const Volume read = read_volume(folder / "a.raw", {3e-6, {{5, 4, 3}}, "uint16"});
   EXPECT_EQ(read.pixels, volume.pixels);
   EXPECT_EQ(read.spacing, 3e-6);
-  EXPECT_NE(error_of(folder / "a.raw", {3e-6, {{5, 4, 4}}, "uint16"}).find("found 120 bytes, expected 160"), std::string::npos);
+  EXPECT_NE(error_of(folder / "a.raw", {3e-6, {{5, 4, 4}}, "uint16"}).find("found 120 bytes, expected 160"),
+            std::string::npos);
   EXPECT_THROW(read_volume(folder / "a.raw", {3e-6, {{5, 4, 3}}, "int7"}), BadUsage);
 }
 
 TEST(Volume, SlicesComeInTheOrderOfTheirNumbers) {
   const ScratchFolder folder;
   for (int k = 8; k < 12; ++k)
-    cv::imwrite((folder / fmt::format("slice_{}.tif", k)).string(), cv::Mat(3, 4, CV_16UC1, cv::Scalar(100 * k)));
+    cv::imwrite((folder / fmt::format("slice_{}.tif", k)).string(),
+                cv::Mat(3, 4, CV_16UC1, cv::Scalar(100 * k)));
   const Volume volume = read_volume(folder.path(), {2e-6, {}, ""});
   EXPECT_EQ(volume.size, (std::array<std::size_t, 3>{4, 3, 4}));
   const auto& pixels = std::get<std::vector<std::uint16_t>>(volume.pixels);
@@ -96,8 +102,10 @@ TEST(Volume, MultiPageTiff) {
 TEST(Volume, NrrdNamesItsUnit) {
   const ScratchFolder folder;
   const Volume volume = ramp();
-  const std::string head = "NRRD0004\ntype: ushort\ndimension: 3\nsizes: 5 4 3\nendian: little\nencoding: raw\nspace dimension: 3\n"
-                           "space directions: (0.005,0,0) (0,0.005,0) (0,0,0.005)\n";
+  const std::string head =
+      "NRRD0004\ntype: ushort\ndimension: 3\nsizes: 5 4 3\nendian: little\nencoding: raw\nspace dimension: "
+      "3\n"
+      "space directions: (0.005,0,0) (0,0.005,0) (0,0,0.005)\n";
   write_bytes(folder / "mm.nrrd", head + "space units: \"mm\" \"mm\" \"mm\"\n\n" + bytes_of(volume));
   const Volume read = read_volume(folder / "mm.nrrd");
   EXPECT_EQ(read.pixels, volume.pixels);
@@ -111,8 +119,9 @@ TEST(Volume, NrrdNamesItsUnit) {
 TEST(Volume, BadInputIsOneLine) {
   const ScratchFolder folder;
   const auto header = [](const std::string& size, const std::string& type, const std::string& spacing) {
-    return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nElementSpacing = " + spacing +
-           "\nDimSize = " + size + "\nElementType = " + type + "\nElementDataFile = LOCAL\n";
+    return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nElementSpacing "
+           "= " +
+           spacing + "\nDimSize = " + size + "\nElementType = " + type + "\nElementDataFile = LOCAL\n";
   };
   const std::string data = bytes_of(ramp());
   std::string not_a_number(60 * sizeof(float), '\0');
@@ -121,11 +130,13 @@ TEST(Volume, BadInputIsOneLine) {
   const struct {
     std::string name, bytes, part;
   } cases[] = {
-      {"truncated.mha", header("5 4 3", "MET_USHORT", "2 2 2") + data.substr(20), "found 100 bytes of voxels, expected 120"},
+      {"truncated.mha", header("5 4 3", "MET_USHORT", "2 2 2") + data.substr(20),
+       "found 100 bytes of voxels, expected 120"},
       {"lying.mha", header("5 4 4", "MET_USHORT", "2 2 2") + data, "found 120 bytes of voxels, expected 160"},
       {"huge.mha", header("100000 100000 100000", "MET_USHORT", "2 2 2") + data, "found 120 bytes"},
       {"signed.mha", header("5 4 3", "MET_SHORT", "2 2 2") + data, "found pixel type short"},
-      {"flat.mha", header("5 4 3", "MET_USHORT", "2 2 2") + std::string(120, '\1'), "found one grey value throughout"},
+      {"flat.mha", header("5 4 3", "MET_USHORT", "2 2 2") + std::string(120, '\1'),
+       "found one grey value throughout"},
       {"slab.mha", header("5 4 3", "MET_USHORT", "2 2 5") + data, "expected cubic ones"},
       {"nan.mha", header("5 4 3", "MET_FLOAT", "2 2 2") + not_a_number, "voxel (4, 0, 0): found NaN"},
       {"empty.mha", "", "empty.mha"},

@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/files.h"
+#include "program.h"
+#include "scratch.h"
+#include "small_sample.h"
+
+namespace pendular {
+namespace {
+
+using test::Outcome;
+using test::ScratchFolder;
+using test::shell;
+
+struct BadCommand {
+  const char* name;
+  const char* command;
+  int status;
+  const char* expected;  ///< part of the one line
+};
+
+class BadInput : public testing::TestWithParam<BadCommand> {};
+
+constexpr const char* kTwoBeads = "bead_id,x_um,y_um,z_um,diameter_um\n1,0,0,0,200\n2,0,0,205,200\n";
+
+TEST_P(BadInput, GivesOneLineAndTheRightStatus) {
+  ScratchFolder folder;
+  write_text(folder / "s.toml", test::small_sample());
+  write_text(folder / "typo.toml", "[beads]\ndiametr_um = 200\n");
+  write_text(folder / "no_stiffness.toml", "[beads]\ndiameter_um = 200\n");
+  write_text(folder / "two.csv", kTwoBeads);
+  write_text(folder / "one.csv", "bead_id,x_um,y_um,z_um,diameter_um\n1,0,0,0,200\n");
+  write_text(folder / "same_id.csv", "bead_id,x_um,y_um,z_um,diameter_um\n1,0,0,0,200\n1,0,0,205,200\n");
+  write_text(folder / "negative.csv", "bead_id,x_um,y_um,z_um,diameter_um\n1,0,0,0,-200\n");
+  write_text(folder / "overlap.csv", "bead_id,x_um,y_um,z_um,diameter_um\n1,0,0,0,200\n2,0,0,20,200\n");
+  write_text(folder / "metres.csv", "bead_id,x_um,y_um,z_um,diameter_um\n1,0,0,0,2e-4\n2,0,0,2.05e-4,2e-4\n");
+  write_text(folder / "nan.csv", "bead_id,x_um,y_um,z_um,diameter_um\n1,0,nan,0,200\n");
+  write_text(folder / "column.csv", "bead_id,x_um,y_um,diameter_um\n1,0,0,200\n");
+  write_text(folder / "noise.mha", "this is no volume");
+  write_text(folder / "file", "a file");
+  const auto& bad = GetParam();
+  const Outcome outcome = shell(folder.path(), bad.command);
+  EXPECT_EQ(outcome.status, bad.status) << outcome.errors;
+  EXPECT_NE(outcome.errors.find(bad.expected), std::string::npos) << outcome.errors;
+  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+  for (const char* name : {"out.vtp", "out.csv", "out.mha", "out/result.json"})
+    EXPECT_FALSE(fs::exists(folder / name)) << name << " is left under its final name";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, BadInput,
+    testing::Values(
+        BadCommand{"NoCommand", "$P", 2, "subcommand"}, BadCommand{"UnknownCommand", "$P melt", 2, "melt"},
+        BadCommand{"UnknownOption", "$P pack two.csv --sample s.toml -o out.vtp --fast", 2, "--fast"},
+        BadCommand{"NoOut", "$P pack two.csv --sample s.toml", 2, "--out"},
+        BadCommand{"MissingSample", "$P phantom absent.toml -o out.mha", 3, "absent.toml"},
+        BadCommand{"UnknownKey", "$P phantom typo.toml -o out.mha", 3, "beads.diameter_um"},
+        BadCommand{"NotAVolume", "$P segment noise.mha -o out.csv", 3, "noise.mha"},
+        BadCommand{"MissingVolume", "$P segment absent.mha -o out.csv", 3, "absent.mha"},
+        BadCommand{"DuplicateId", "$P pack same_id.csv --sample s.toml -o out.vtp", 3, "same_id.csv"},
+        BadCommand{"NegativeDiameter", "$P pack negative.csv --sample s.toml -o out.vtp", 3,
+                   "negative.csv:2"},
+        BadCommand{"GrossOverlap", "$P pack overlap.csv --sample s.toml -o out.vtp", 3, "overlap.csv"},
+        BadCommand{"WrongUnit", "$P pack metres.csv --sample s.toml -o out.vtp", 3, "unit"},
+        BadCommand{"Nan", "$P pack nan.csv --sample s.toml -o out.vtp", 3, "nan.csv:2"},
+        BadCommand{"MissingColumn", "$P pack column.csv --sample s.toml -o out.vtp", 3, "z_um"},
+        BadCommand{"OneBead",
+                   "$P pack one.csv --sample s.toml -o one.vtp --quiet && $P compress one.vtp --sample "
+                   "s.toml -o out",
+                   3, "found 1 bead"},
+        BadCommand{"NoStiffness",
+                   "$P pack two.csv --sample no_stiffness.toml -o two.vtp --quiet && $P compress two.vtp "
+                   "--sample no_stiffness.toml -o out",
+                   3, "normal_stiffness_n_per_m"},
+        BadCommand{"NotAPacking", "$P compress two.csv --sample s.toml -o out", 3, "two.csv"},
+        BadCommand{"FolderIsAFile",
+                   "$P pack two.csv --sample s.toml -o two.vtp --quiet && $P compress two.vtp --sample "
+                   "s.toml -o file",
+                   3, "file"},
+        BadCommand{"MissingFolder", "$P pack two.csv --sample s.toml -o absent/out.vtp", 4, "absent/out.vtp"},
+        BadCommand{"FullDisc", "ulimit -f 64; $P phantom s.toml -o out.mha --quiet", 4, "out.mha"},
+        BadCommand{"NoRun", "$P render absent", 3, "absent"}),
+    [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace pendular
