@@ -43,7 +43,7 @@ void run(const PhantomOptions& options) {
 
   const Volume volume = make_phantom(packing, sample.phantom, seed);
   if (!options.truth.empty()) write_packing(options.truth, packing);
-  write_volume(options.common.out, volume);
+  write_volume(options.common.out, volume, packing.provenance);
   say(fmt::format("{} beads, {} bridges, {} x {} x {} voxels of {:.4g} um: {}", packing.beads.size(),
                   packing.bridges.size(), volume.size[0], volume.size[1], volume.size[2],
                   1e6 * volume.spacing, options.common.out.string()));

@@ -88,7 +88,7 @@ void run(const Options& options) {
   for (const auto& warning : result.warnings) warn(warning);
   write_beads(options.common.out, result.beads, origin);
   if (!options.bridges.empty()) write_bridges(options.bridges, result.beads, result.bridges, origin);
-  if (!options.labels.empty()) write_volume(options.labels, label_volume(volume, result));
+  if (!options.labels.empty()) write_volume(options.labels, label_volume(volume, result), origin);
   if (!options.qa.empty()) write_qa(options.qa, volume, result);
   write_text(fs::path(options.common.out).replace_extension(".json"),
              summary(volume, result, origin).dump(2) + "\n");

@@ -127,7 +127,8 @@ RunState read_checkpoint(const fs::path& path, const std::string& identity) {
     bad_input("{}: is no checkpoint of this version of pendular", path.string());
   const std::size_t digest_at = bytes.find('\n', magic.size()) + 1;
   const std::size_t payload_at = digest_at + 65;
-  if (digest_at == 0 || payload_at > bytes.size()) bad_input("{}: checkpoint is cut short", path.string());
+  if (digest_at == 0 || payload_at > bytes.size() || bytes[payload_at - 1] != '\n')
+    bad_input("{}: checkpoint is cut short", path.string());
   if (bytes.substr(digest_at, 64) != sha256(std::string_view(bytes).substr(payload_at)))
     bad_input("{}: checkpoint is damaged: its checksum does not match", path.string());
   if (bytes.substr(magic.size(), digest_at - 1 - magic.size()) != identity)

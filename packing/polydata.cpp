@@ -20,6 +20,7 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <mutex>
 #include <optional>
@@ -207,16 +208,28 @@ void read_fields(vtkFieldData* data, PolyTable& table) {
   }
 }
 
-/// VTK fills the arrays of a file cut within its data with what happens to be in memory; the end tag tells.
+constexpr const char* kEnd = "</VTKFile>";
+constexpr const char* kSeal = "<!-- pendular sha256 ";
+
+/// The comment that closes the files written here, so that damage is noticed before VTK's reader meets it: a
+/// damaged file can end the program inside the library.
+std::string seal(std::string_view content) {
+  return kSeal + sha256(content) + " -->\n";
+}
+
+/// A file that is cut or, if it was written here, damaged in any way.
 void require_whole(const fs::path& path) {
-  require_readable(path);
-  constexpr std::streamoff kTail = 64;
-  std::ifstream in(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = in.tellg();
-  in.seekg(std::max<std::streamoff>(0, size - kTail));
-  const std::string tail{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (tail.find("</VTKFile>") == std::string::npos)
-    bad_input("{}: found no </VTKFile> at its end, expected a whole VTK XML file (.vtp)", path.string());
+  const std::string bytes = read_text(path);
+  const std::size_t end = bytes.rfind(kEnd);
+  if (end == std::string::npos)
+    bad_input("{}: found no {} at its end, expected a whole VTK XML file (.vtp)", path.string(), kEnd);
+  const std::size_t sealed = bytes.rfind(kSeal);
+  if (sealed == std::string::npos &&
+      bytes.find_first_not_of(" \r\n\t", end + std::strlen(kEnd)) == std::string::npos)
+    return;  // of another program
+  if (sealed == std::string::npos || bytes.substr(sealed) != seal(std::string_view(bytes).substr(0, sealed)))
+    bad_input("{}: found damaged VTK data (its checksum does not match), expected the file as it was written",
+              path.string());
 }
 
 template <typename T>
@@ -244,6 +257,10 @@ void write_polydata(const fs::path& path, const PolyTable& table) {
     writer->SetHeaderTypeToUInt64();
     if (writer->Write() != 1 || messages.any())
       throw ComputationFailed(fmt::format("{}: cannot be written (folder or disc full?)", path.string()));
+    std::ofstream out(temporary, std::ios::binary | std::ios::app);
+    out << seal(read_text(temporary));
+    out.close();
+    if (!out) throw ComputationFailed(fmt::format("{}: cannot be written (disc full?)", path.string()));
   });
 }
 

@@ -12,6 +12,8 @@ namespace {
 // Shares of the range of grey values: a spread that only beads make, and a step that only a wall makes.
 constexpr double busy_spread = 0.2;
 constexpr double least_step = 0.15;
+// A thin wall behind the first layer of beads steps up less; that it does so on a circle tells it from beads.
+constexpr double least_tube_step = 0.05;
 
 struct MeanAndSpread {
   double mean = 0.0, spread = 0.0;
@@ -177,7 +179,7 @@ std::optional<Disc> tube_of(const Grid<float>& grey, const std::vector<MeanAndSp
       if (std::isnan(mean)) break;
       profile.push_back(mean);
     }
-    if (const auto r = steepest_rise(profile, from, step, least_step * edge))
+    if (const auto r = steepest_rise(profile, from, step, least_tube_step * edge))
       points.emplace_back(busy.x + *r * c, busy.y + *r * s);
   }
   if (points.size() < 2 * sectors / 3) return std::nullopt;

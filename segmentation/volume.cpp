@@ -4,6 +4,8 @@
 
 #include <itkMetaImageIO.h>
 
+#include <iostream>
+
 #include "base/error.h"
 
 namespace pendular {
@@ -15,6 +17,12 @@ itk::IOComponentEnum component(const Volume& volume) {
   return components[volume.pixels.index()];
 }
 
+/// The library prints what it cannot write; the user gets one line, from here.
+struct SilentErrors {
+  std::streambuf* usual = std::cerr.rdbuf(nullptr);
+  ~SilentErrors() { std::cerr.rdbuf(usual); }
+};
+
 }  // namespace
 
 std::string pixel_type(const Volume& volume) {
@@ -22,7 +30,7 @@ std::string pixel_type(const Volume& volume) {
   return names[volume.pixels.index()];
 }
 
-void write_volume(const fs::path& path, const Volume& volume) {
+void write_volume(const fs::path& path, const Volume& volume, const Provenance& provenance) {
   if (path.extension() != ".mha")
     throw BadUsage(fmt::format("{}: found a name that does not end in .mha, expected .mha", path.string()));
   write_atomically(path, [&](const fs::path& temporary) {
@@ -41,8 +49,12 @@ void write_volume(const fs::path& path, const Volume& volume) {
     io->SetPixelType(itk::IOPixelEnum::SCALAR);
     io->SetComponentType(component(volume));
     itk::EncapsulateMetaData<std::string>(io->GetMetaDataDictionary(), "LengthUnit", "um");
+    if (!provenance.version.empty())
+      itk::EncapsulateMetaData<std::string>(io->GetMetaDataDictionary(), "Provenance",
+                                            to_json(provenance).dump());
     io->SetFileName(temporary.string());
     try {
+      const SilentErrors silent;
       with_pixels(volume, [&](auto pixels) { io->Write(pixels.data()); });
     } catch (const itk::ExceptionObject& error) {
       throw ComputationFailed(

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/files.h"
+#include "base/provenance.h"
 #include "base/vec3.h"
 
 namespace pendular {
@@ -55,7 +56,7 @@ struct ReadOptions {
 /// throughout.
 Volume read_volume(const fs::path& path, const ReadOptions& options = {});
 
-/// Writes a MetaImage (.mha) whole or not at all, uncompressed, lengths in µm.
-void write_volume(const fs::path& path, const Volume& volume);
+/// Writes a MetaImage (.mha) whole or not at all, uncompressed, lengths in µm, provenance in its header.
+void write_volume(const fs::path& path, const Volume& volume, const Provenance& provenance = {});
 
 }  // namespace pendular

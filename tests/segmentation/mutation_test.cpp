@@ -1,0 +1,36 @@
+#include "mutation.h"
+
+#include "scratch.h"
+#include "segmentation/volume.h"
+
+namespace pendular {
+namespace {
+
+using test::read_mutations;
+using test::ScratchFolder;
+
+Volume small_volume() {
+  Volume volume;
+  volume.size = {9, 8, 7};
+  std::vector<std::uint16_t> pixels;
+  for (std::size_t k = 0; k < volume.voxels(); ++k)
+    pixels.push_back(static_cast<std::uint16_t>(random_bits(1, k)));
+  volume.pixels = pixels;
+  return volume;
+}
+
+TEST(Mutation, NoDamageToAVolumeCrashesItsReader) {
+  ScratchFolder folder;
+  write_volume(folder / "v.mha", small_volume());
+  const std::string mha = read_text(folder / "v.mha");
+  read_mutations(folder / "v.mha", mha, 400, [](const fs::path& path) { read_volume(path); });
+
+  const std::string nrrd =
+      "NRRD0004\ntype: unsigned short\ndimension: 3\nsizes: 9 8 7\nendian: little\nencoding: raw\nspacings: "
+      "5 5 5\n\n" +
+      mha.substr(mha.size() - 2 * 9 * 8 * 7);
+  read_mutations(folder / "v.nrrd", nrrd, 400, [](const fs::path& path) { read_volume(path); });
+}
+
+}  // namespace
+}  // namespace pendular
