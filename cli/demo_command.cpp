@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "base/progress.h"
 #include "base/sample.h"
 #include "cli/command.h"
@@ -45,11 +43,12 @@ viz::ReportSection segmentation_section(const BeadComparison& c, double voxel, c
                    fmt::format("{:.4f}, {:.4f}, {:.4f}", rms.x(), rms.y(), rms.z()), "voxel"},
                   {"Diameter error, mean and rms",
                    fmt::format("{:+.4f}, {:.4f}", c.diameter_bias / voxel, c.diameter_rms / voxel), "voxel"}};
-  std::vector<fs::path> pictures;
-  for (const auto& entry : fs::directory_iterator(qa))
-    if (entry.path().extension() == ".png") pictures.push_back(entry.path());
-  std::sort(pictures.begin(), pictures.end());
-  for (const auto& picture : pictures) section.pictures.push_back({picture, picture.stem().string()});
+  section.pictures = {
+      {qa / "slice_xz_2.png",
+       "Vertical slice with the circles found (orange: poor fit) and the container (blue)"},
+      {qa / "residual_xz.png", "What the fitted beads leave of the middle slice: polymer, container, noise"},
+      {qa / "fractional_positions.png",
+       "Positions of centres within their voxel: flat where nothing pulls them to the grid"}};
   return section;
 }
 

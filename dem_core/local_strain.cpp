@@ -19,7 +19,7 @@ std::vector<LocalStrain> local_strains(const std::vector<Vec3>& start, const std
     int neighbours = 0;
   };
   std::vector<Moments> moments(start.size());
-  for (const auto& [i, j] : pairs_within(start, diameters, 0.5 * mean)) {
+  for (const auto& [i, j] : pairs_within(start, diameters, mean)) {
     const Vec3 before = start[i] - start[j], after = now[i] - now[j];
     const Eigen::Matrix3d mixed = after * before.transpose(), square = before * before.transpose();
     for (int bead : {i, j}) {

@@ -13,9 +13,9 @@ struct LocalStrain {
 };
 
 /// Per bead, the affine deformation F that best maps the vectors to its neighbours in `start` onto those in
-/// `now` (least squares; Falk & Langer 1998, PRE 57, 7192). Neighbours: surfaces closer than half a mean
-/// diameter at the start. Zero where fewer than four neighbours, or neighbours in one plane, leave F
-/// undetermined.
+/// `now` (least squares; Falk & Langer 1998, PRE 57, 7192). Neighbours: surfaces closer than a mean
+/// diameter at the start, finer than a shear band and coarser than the scatter from bead to bead. Zero where
+/// fewer than four neighbours, or neighbours in one plane, leave F undetermined.
 std::vector<LocalStrain> local_strains(const std::vector<Vec3>& start, const std::vector<Vec3>& now,
                                        const std::vector<double>& radii);
 
