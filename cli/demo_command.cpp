@@ -62,7 +62,7 @@ void run(const Common& common) {
   step(common, {"segment", in("volume.mha"), "-o", in("beads.csv"), "--bridges", in("bridges.csv"), "--qa",
                 in("qa")});
   step(common, {"pack", in("beads.csv"), "--sample", in("sample.toml"), "-o", in("packing.vtp")});
-  step(common, {"compress", in("packing.vtp"), "--sample", in("sample.toml"), "-o", in("run"), "--resume"});
+  step(common, {"compress", in("packing.vtp"), "--sample", in("sample.toml"), "-o", in("run")});
   set_command_line({"demo"});
   const Sample sample = read_sample(out / "sample.toml");
   const BeadComparison beads =

@@ -162,6 +162,13 @@ void run(RunState& state, const Sample& sample, const fs::path& folder, std::vec
   write_checkpoint(folder / "checkpoint", state, identity);
 }
 
+/// What an earlier run in this folder has left must not pass for this one's.
+void remove_earlier_run(const fs::path& folder) {
+  for (const char* name : {"curve.csv", "events.csv", "result.json", "checkpoint"}) fs::remove(folder / name);
+  for (const auto& entry : fs::directory_iterator(folder / "frames"))
+    if (entry.path().filename().string().starts_with("frame_")) fs::remove(entry.path());
+}
+
 std::string identity_of(const Provenance& provenance) {
   return sha256(to_json(provenance).dump());
 }
@@ -188,11 +195,13 @@ CompressResult compress(const Packing& packing, const Sample& sample, const fs::
   const std::string identity = identity_of(options.provenance);
   const fs::path checkpoint = folder / "checkpoint";
   RunState state;
-  if (options.resume && fs::exists(checkpoint))
+  const bool resumed = options.resume && fs::exists(checkpoint);
+  if (resumed)
     state = read_checkpoint(checkpoint, identity);
   else
     state.simulation = build_simulation(packing, sample);
   make_folder(folder / "frames");
+  if (!resumed) remove_earlier_run(folder);
   const auto ids = bead_ids(packing);
   const std::int64_t first_step = state.simulation.steps;
   const auto start = Clock::now();

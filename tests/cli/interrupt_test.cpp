@@ -44,6 +44,20 @@ TEST_P(Interrupt, ResumedRunEndsWithTheSameBytes) {
 INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, testing::Values("INT", "TERM", "KILL"),
                          [](const auto& test) { return std::string(test.param); });
 
+TEST(Resume, ANewRunLeavesNothingOfAnEarlierOne) {
+  ScratchFolder folder;
+  write_text(folder / "s.toml", test::small_sample("max_strain = 0.002\nframes = 4\n"));
+  write_text(folder / "few.toml", test::small_sample("max_strain = 0.002\nframes = 1\n"));
+  ASSERT_EQ(shell(folder.path(),
+                  "$P pack --generate --sample s.toml -o p.vtp && $P compress p.vtp --sample s.toml -o run")
+                .status,
+            0);
+  EXPECT_TRUE(fs::exists(folder / "run" / "frames" / "frame_0004.vtp"));
+  ASSERT_EQ(shell(folder.path(), "$P compress p.vtp --sample few.toml -o run").status, 0);
+  EXPECT_TRUE(fs::exists(folder / "run" / "frames" / "frame_0001.vtp"));
+  EXPECT_FALSE(fs::exists(folder / "run" / "frames" / "frame_0002.vtp"));
+}
+
 TEST(Resume, AnotherSeedIsRefused) {
   ScratchFolder folder;
   write_text(folder / "s.toml", test::small_sample("max_strain = 0.002\nframes = 1\n"));
