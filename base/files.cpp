@@ -107,6 +107,15 @@ void make_folder(const fs::path& path) {
     bad_input("{}: folder cannot be written: {}", path.string(), std::strerror(errno));
 }
 
+void require_writable(const fs::path& path) {
+  if (path.empty()) return;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder)) bad_input("{}: its folder does not exist", path.string());
+  if (fs::is_directory(path)) bad_input("{}: is a folder, expected a file name to write", path.string());
+  if (::access(folder.c_str(), W_OK) != 0)
+    bad_input("{}: its folder cannot be written: {}", path.string(), std::strerror(errno));
+}
+
 void require_readable(const fs::path& path, bool folder_allowed) {
   std::error_code error;
   if (!fs::exists(path, error)) bad_input("{}: no such file", path.string());

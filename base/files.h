@@ -23,6 +23,10 @@ std::string read_text(const fs::path& path);
 /// Creates the folder and its parents; BadInput if `path` is a file or cannot be created or written.
 void make_folder(const fs::path& path);
 
+/// BadInput unless a file could be written at `path`: its folder is there and can be written. For the start
+/// of long work; an empty path passes.
+void require_writable(const fs::path& path);
+
 /// BadInput unless `path` is a regular file (or, with `folder_allowed`, a folder) that can be opened.
 void require_readable(const fs::path& path, bool folder_allowed = false);
 

@@ -75,6 +75,7 @@ void run(const PackOptions& options) {
   if (options.common.out.extension() != ".vtp")
     throw BadUsage(
         fmt::format("pack: --out: found {}, expected a name ending in .vtp", options.common.out.string()));
+  require_writable(options.common.out);
   const Sample sample = read_sample(options.sample);
   Packing packing =
       options.generate ? generate_packing(sample, options.common.seed) : measured_packing(options, sample);

@@ -33,6 +33,7 @@ void run(const PhantomOptions& options) {
   apply(options.common);
   require_extension("--out", options.common.out, ".mha");
   if (!options.truth.empty()) require_extension("--truth", options.truth, ".vtp");
+  for (const fs::path& path : {options.common.out, options.truth}) require_writable(path);
   const Sample sample = read_sample(options.sample);
   const std::uint64_t seed = options.common.seed;
   std::vector<fs::path> inputs = {options.sample};

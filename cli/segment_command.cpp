@@ -73,9 +73,7 @@ nlohmann::ordered_json summary(const Volume& volume, const Segmentation& result,
 void run(const Options& options) {
   apply(options.common);
   const ReadOptions how = reading(options);
-  for (const fs::path& path :
-       {options.common.out, options.bridges, options.labels})  // not after minutes of work
-    if (path.has_parent_path()) make_folder(path.parent_path());
+  for (const fs::path& path : {options.common.out, options.bridges, options.labels}) require_writable(path);
   const Provenance origin = provenance(options.common, {options.volume});
   const Volume volume = read_volume(options.volume, how);
   const Segmentation result = [&] {

@@ -79,7 +79,8 @@ INSTANTIATE_TEST_SUITE_P(
                    "$P pack two.csv --sample s.toml -o two.vtp --quiet && $P compress two.vtp --sample "
                    "s.toml -o file",
                    3, "file"},
-        BadCommand{"MissingFolder", "$P pack two.csv --sample s.toml -o absent/out.vtp", 4, "absent/out.vtp"},
+        BadCommand{"MissingFolder", "$P pack two.csv --sample s.toml -o absent/out.vtp", 3, "absent/out.vtp"},
+        BadCommand{"MissingFolderOfBeads", "$P segment noise.mha -o absent/out.csv", 3, "absent/out.csv"},
         BadCommand{"FullDisc", "ulimit -f 64; $P phantom s.toml -o out.mha --quiet", 4, "out.mha"},
         BadCommand{"NoRun", "$P render absent", 3, "absent"}),
     [](const auto& test) { return test.param.name; });
