@@ -17,8 +17,7 @@ namespace pendular {
 /// from it. Draws below half the mean count as that, and no diameter exceeds 1.5 times the distance to the
 /// nearest centre (which only centres closer than 2/3 of a diameter ever notice), so that all are positive.
 ///
-/// Of the readings of the paper's one sentence this is the one that gives, with its cut-off, its coordination
-/// number and its linear range; docs/model.md holds it against others.
+/// The paper's one sentence can be read in other ways; docs/model.md holds those tried against each other.
 ///
 /// Same unit for centres and diameters. Deterministic in `seed`. BadInput where two centres coincide.
 std::vector<double> draw_diameters(std::span<const Vec3> centres, double mean, double relative_sd,
