@@ -1,12 +1,9 @@
 #include "base/sample.h"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <limits>
-#include <numeric>
 
 #include "base/error.h"
+#include "base/nearest.h"
 #include "base/sample_schema.h"
 
 namespace pendular {
@@ -90,6 +87,9 @@ const std::vector<NumberKey>& number_keys() {
 const std::vector<WordKey>& word_keys() {
   static const std::vector<WordKey> keys = {
       {"beads.diameters", {"drawn", "measured"}, [](Sample& s) -> std::string& { return s.beads.diameters; }},
+      {"bridges.stiffness",
+       {"one", "per_bridge"},
+       [](Sample& s) -> std::string& { return s.bridges.stiffness; }},
       {"contact.tangential_springs",
        {"one", "two"},
        [](Sample& s) -> std::string& { return s.contact.tangential_springs; }},
@@ -107,22 +107,6 @@ std::vector<std::string> all_key_names() {
 
 namespace {
 
-/// Levenshtein's edit distance.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row.back();
-}
-
 const NumberKey& find_number_key(const std::string& name) {
   for (const auto& key : number_keys())
     if (key.name == name) return key;
@@ -133,10 +117,7 @@ const NumberKey& find_number_key(const std::string& name) {
 }  // namespace
 
 std::string nearest_key(const std::string& name) {
-  const auto names = all_key_names();
-  return *std::min_element(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
-    return edit_distance(a, name) < edit_distance(b, name);
-  });
+  return nearest_name(name, all_key_names());
 }
 
 void NumberKey::set(Sample& sample, double value) const {

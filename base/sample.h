@@ -33,6 +33,8 @@ struct Sample {
     double interfacial_energy = 7.0;             ///< G, J/m2
     std::optional<double> normal_stiffness;      ///< kn, N/m
     std::optional<double> tangential_stiffness;  ///< kt, N/m
+    std::string stiffness =
+        "one";  ///< "one": all bonds the same, as the paper; "per_bridge": each from its own gap and diameter
   } bridges;
 
   struct Contact {

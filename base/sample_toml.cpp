@@ -96,6 +96,11 @@ void check_together(const Sample& sample, const std::string& file) {
     bad_input(
         "{}: bridges: normal_stiffness_n_per_m and tangential_stiffness_n_per_m: expected both or neither",
         file);
+  if (sample.bridges.normal_stiffness && sample.bridges.stiffness == "per_bridge")
+    bad_input(
+        "{}: bridges.stiffness = \"per_bridge\" and bridges.normal_stiffness_n_per_m: expected one of them, "
+        "because a given stiffness is the same for all bonds",
+        file);
   if (sample.phantom.bits != 8.0 && sample.phantom.bits != 16.0)
     bad_input("{}: phantom.bits = {}: expected 8 or 16", file, sample.phantom.bits);
   if (sample.phantom.air_grey == sample.phantom.glass_grey)

@@ -34,8 +34,10 @@ void add_demo(CLI::App& app);
 void add_phantom(CLI::App& app);
 void add_segment(CLI::App& app);
 void add_pack(CLI::App& app);
+void add_bridge(CLI::App& app);
 void add_compress(CLI::App& app);
 void add_render(CLI::App& app);
 void add_convert(CLI::App& app);
+void add_pipette(CLI::App& app);
 
 }  // namespace pendular::cli

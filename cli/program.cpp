@@ -17,9 +17,11 @@ void add_commands(CLI::App& app) {
   add_phantom(app);
   add_segment(app);
   add_pack(app);
+  add_bridge(app);
   add_compress(app);
   add_render(app);
   add_convert(app);
+  add_pipette(app);
 }
 
 CLI::App new_app() {

@@ -46,31 +46,43 @@ LawParameters law_parameters(const Sample& sample, const BondStiffness& bond) {
   return law;
 }
 
-PairProperties bond_properties(const Packing& packing, const Bridge& bridge, const BondStiffness& bond,
-                               const Sample& sample) {
+/// The body of a bridge. Its neck is its own where the sample asks for that and it was measured, the mean one
+/// otherwise; thinner than both beads.
+BridgeBody bridge_body(const Packing& packing, const Bridge& bridge, const Sample& sample) {
   const Bead &a = packing.beads[bridge.i], &b = packing.beads[bridge.j];
-  const double smaller = std::min(a.diameter, b.diameter);
-  const double neck = std::min(sample.bridges.diameter, 0.99 * smaller);
+  const bool own = sample.bridges.stiffness == "per_bridge" && bridge.diameter > 0.0;
+  const double neck = own ? bridge.diameter : sample.bridges.diameter;
+  return {std::min(neck, 0.99 * std::min(a.diameter, b.diameter)), gap(a, b), a.diameter, b.diameter};
+}
+
+PairProperties bond_properties(const BridgeBody& body, const BondStiffness& stiffness, const Sample& sample) {
   PairProperties pair;
-  pair.rest = gap(a, b);
+  pair.rest = body.gap;
   pair.touch = std::min(0.0, pair.rest);
-  pair.kn = bond.normal;
-  pair.kt = bond.tangential;
+  pair.kn = stiffness.normal;
+  pair.kt = stiffness.tangential;
   pair.break_limit = 2.0 * sample.bridges.interfacial_energy *
-                     rim_height(pair.rest, a.diameter, b.diameter, neck) / sample.bridges.youngs_modulus;
+                     rim_height(body.gap, body.diameter_i, body.diameter_j, body.neck_diameter) /
+                     sample.bridges.youngs_modulus;
   return pair;
 }
 
-void add_bonds(Simulation& simulation, const Packing& packing, const Sample& sample,
-               const BondStiffness& stiffness) {
+void add_bonds(Simulation& simulation, const Packing& packing, const Sample& sample) {
+  std::vector<Bridge> standing;
+  std::vector<BridgeBody> bodies;
   for (const auto& bridge : packing.bridges) {
     if (bridge.state != BridgeState::candidate && bridge.state != BridgeState::bridge) continue;
+    standing.push_back(bridge);
+    bodies.push_back(bridge_body(packing, bridge, sample));
+  }
+  const auto stiffness = bond_stiffnesses(sample, bodies);
+  for (std::size_t k = 0; k < standing.size(); ++k) {
     Pair pair;
-    pair.i = bridge.i;
-    pair.j = bridge.j;
-    pair.bond = static_cast<int>(simulation.bonds.size());
-    pair.properties = bond_properties(packing, bridge, stiffness, sample);
-    simulation.bonds.push_back({bridge.i, bridge.j, false});
+    pair.i = standing[k].i;
+    pair.j = standing[k].j;
+    pair.bond = static_cast<int>(k);
+    pair.properties = bond_properties(bodies[k], stiffness[k], sample);
+    simulation.bonds.push_back({pair.i, pair.j, false});
     simulation.pairs.push_back(pair);
   }
 }
@@ -136,7 +148,7 @@ Simulation build_simulation(const Packing& packing, const Sample& sample) {
   Simulation simulation;
   simulation.beads = bead_states(packing, sample.beads.density);
   simulation.law = law_parameters(sample, stiffness);
-  add_bonds(simulation, packing, sample, stiffness);
+  add_bonds(simulation, packing, sample);
   if (simulation.bonds.empty()) bad_input("packing: found no bridge, expected at least one to compress");
   sort_pairs(simulation.pairs);
   add_overlapping_pairs(simulation, packing);

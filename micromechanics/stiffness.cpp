@@ -1,16 +1,65 @@
 #include "micromechanics/stiffness.h"
 
+#include <algorithm>
+
 #include "base/error.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "micromechanics/stiffness_table.h"
 
 namespace pendular {
 
+Polymer polymer_of(const Sample& sample) {
+  return {sample.bridges.youngs_modulus, sample.bridges.poisson_ratio};
+}
+
+BridgeBody mean_bridge(const Sample& sample) {
+  return {sample.bridges.diameter, sample.bridges.gap, sample.beads.diameter, sample.beads.diameter};
+}
+
 BondStiffness bond_stiffness(const Sample& sample) {
-  if (!sample.bridges.normal_stiffness || !sample.bridges.tangential_stiffness)
+  const auto &normal = sample.bridges.normal_stiffness, &tangential = sample.bridges.tangential_stiffness;
+  if (normal.has_value() != tangential.has_value())
     bad_input(
-        "sample: bridges.normal_stiffness_n_per_m and bridges.tangential_stiffness_n_per_m: found none, "
-        "expected both "
-        "(N/m)");
-  return {*sample.bridges.normal_stiffness, *sample.bridges.tangential_stiffness};
+        "sample: bridges.{}: found alone, expected normal_stiffness_n_per_m and "
+        "tangential_stiffness_n_per_m, or "
+        "neither",
+        normal ? "normal_stiffness_n_per_m" : "tangential_stiffness_n_per_m");
+  BondStiffness bond = bridge_stiffness(mean_bridge(sample), polymer_of(sample));
+  if (normal) {
+    bond.normal = *normal;
+    bond.tangential = *tangential;
+  }
+  return bond;
+}
+
+BridgeStiffnesses bridge_stiffnesses(std::span<const BridgeBody> bodies, const Polymer& polymer) {
+  const StiffnessTable table(bodies, polymer);
+  BridgeStiffnesses result;
+  result.interpolation_error = table.measured_error();
+  result.bonds.resize(bodies.size());
+  for_blocks(bodies.size(), 1024, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) result.bonds[k] = table.at(bodies[k]);
+  });
+  result.raised_gaps = static_cast<std::size_t>(std::count_if(
+      bodies.begin(), bodies.end(), [](const BridgeBody& body) { return gap_is_raised(body); }));
+  return result;
+}
+
+std::vector<BondStiffness> bond_stiffnesses(const Sample& sample, std::span<const BridgeBody> bodies) {
+  if (sample.bridges.stiffness == "one")
+    return std::vector<BondStiffness>(bodies.size(), bond_stiffness(sample));
+  if (sample.bridges.normal_stiffness || sample.bridges.tangential_stiffness)
+    bad_input(
+        "sample: bridges.stiffness: found \"per_bridge\" and a stated stiffness, which is the same for all "
+        "bonds; "
+        "expected one of them");
+  BridgeStiffnesses each = bridge_stiffnesses(bodies, polymer_of(sample));
+  if (each.interpolation_error > 1e-3)
+    warn(
+        fmt::format("stiffness per bridge: interpolated to {:.2g} %, because bridges differ beyond the usual",
+                    100.0 * each.interpolation_error));
+  return std::move(each.bonds);
 }
 
 }  // namespace pendular

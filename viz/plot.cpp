@@ -1,73 +1,25 @@
 #include "viz/plot.h"
 
 #include <vtkAxis.h>
-#include <vtkBrush.h>
-#include <vtkChartLegend.h>
-#include <vtkChartXY.h>
-#include <vtkContextActor.h>
-#include <vtkContextScene.h>
-#include <vtkDoubleArray.h>
 #include <vtkPen.h>
-#include <vtkPlotBar.h>
 #include <vtkPlotPoints.h>
-#include <vtkRenderer.h>
-#include <vtkStringArray.h>
-#include <vtkTable.h>
-#include <vtkTextProperty.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "viz/annotation.h"
-#include "viz/canvas.h"
-#include "viz/ticks.h"
+#include "viz/chart.h"
 
 namespace pendular::viz {
 namespace {
 
-struct Colour {
-  unsigned char r, g, b;
-};
 constexpr Colour kBlue{31, 90, 165}, kGrey{150, 165, 185}, kBlack{30, 30, 30}, kRed{190, 40, 30},
     kGreen{20, 130, 80}, kBars{236, 190, 140};
 
-/// Between the axes, in shares of the picture.
-struct Area {
-  double left, bottom, width, height;
-  double middle_x() const { return left + 0.5 * width; }
-  double middle_y() const { return bottom + 0.5 * height; }
-};
 constexpr Area kArea{0.11, 0.125, 0.77, 0.845};
 
 constexpr double kBarHeadroom = 1.7;  // height of the plot over the highest bar
-
-using Points = std::vector<std::pair<double, double>>;
-
-vtkSmartPointer<vtkTable> table_of(const Points& points) {
-  vtkNew<vtkDoubleArray> x, y;
-  x->SetName("x");
-  y->SetName("y");
-  for (const auto& [px, py] : points) {
-    x->InsertNextValue(px);
-    y->InsertNextValue(py);
-  }
-  auto table = vtkSmartPointer<vtkTable>::New();
-  table->AddColumn(x);
-  table->AddColumn(y);
-  return table;
-}
-
-vtkPlot* add_plot(vtkChartXY* chart, int kind, const Points& points, const std::string& label, Colour colour,
-                  double width) {
-  vtkPlot* plot = chart->AddPlot(kind);
-  plot->SetInputData(table_of(points), 0, 1);
-  plot->SetLabel(label.empty() ? label : " " + label);
-  plot->SetColor(colour.r, colour.g, colour.b, 255);
-  plot->SetWidth(static_cast<float>(width));
-  return plot;
-}
 
 Points curve_of(const RunFolder& run) {
   Points points;
@@ -137,29 +89,6 @@ void add_other_runs(vtkChartXY* chart, std::span<const RunFolder> runs, const Ca
   }
 }
 
-/// `scale`: value of the label over position on the axis.
-void set_axis(vtkAxis* axis, double high, double scale, const Canvas& canvas) {
-  const Ticks ticks = round_ticks(0.0, high * scale, 6);
-  vtkNew<vtkDoubleArray> positions;
-  vtkNew<vtkStringArray> labels;
-  for (std::size_t k = 0; k < ticks.values.size(); ++k) {
-    positions->InsertNextValue(ticks.values[k] / scale);
-    labels->InsertNextValue(ticks.labels[k]);
-  }
-  axis->SetBehavior(vtkAxis::FIXED);
-  axis->SetRange(0.0, high);
-  axis->SetCustomTickPositions(positions, labels);
-  axis->SetTitle("");
-  axis->SetGridVisible(false);
-  axis->SetVisible(true);
-  axis->SetTickLength(static_cast<float>(canvas.scaled(10)));
-  axis->SetLabelOffset(static_cast<float>(canvas.scaled(18)));
-  axis->GetPen()->SetWidth(static_cast<float>(canvas.scaled(2.5)));
-  axis->GetLabelProperties()->SetFontFamilyToArial();
-  axis->GetLabelProperties()->SetColor(0.05, 0.05, 0.05);
-  axis->GetLabelProperties()->SetFontSize(canvas.scaled(34));
-}
-
 }  // namespace
 
 Image draw_stress_strain(const Display& display, std::span<const RunFolder> runs, PictureSize size) {
@@ -171,29 +100,10 @@ Image draw_stress_strain(const Display& display, std::span<const RunFolder> runs
   if (!(longest > 0.0)) longest = kBreakBin;
   if (!(highest > 0.0)) highest = 1.0;
 
-  Canvas canvas(display, size);
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(1.0, 1.0, 1.0);
-  canvas.window()->AddRenderer(renderer);
-  vtkNew<vtkContextActor> actor;
-  renderer->AddActor(actor);
-  actor->GetScene()->SetRenderer(renderer);
-  vtkNew<vtkChartXY> chart;
-  actor->GetScene()->AddItem(chart);
-  const int* window = canvas.window()->GetSize();
-  chart->SetLayoutStrategy(vtkChart::AXES_TO_RECT);
-  chart->SetSize(
-      vtkRectf(static_cast<float>(kArea.left * window[0]), static_cast<float>(kArea.bottom * window[1]),
-               static_cast<float>(kArea.width * window[0]), static_cast<float>(kArea.height * window[1])));
+  ChartSheet sheet(display, size);
+  const Canvas& canvas = sheet.canvas();
+  vtkChartXY* chart = sheet.add_chart(kArea);
   chart->SetBarWidthFraction(1.0f);
-  chart->SetShowLegend(true);
-  chart->GetLegend()->SetLabelSize(canvas.scaled(30));
-  chart->GetLegend()->SetSymbolWidth(canvas.scaled(60));
-  chart->GetLegend()->SetPadding(canvas.scaled(12));
-  chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);
-  chart->GetLegend()->SetVerticalAlignment(vtkChartLegend::TOP);
-  chart->GetLegend()->GetPen()->SetOpacity(0);
-  chart->GetLegend()->GetBrush()->SetOpacity(0);
 
   const RunFolder& first = runs.front();
   double most = 0.0;
@@ -213,19 +123,17 @@ Image draw_stress_strain(const Display& display, std::span<const RunFolder> runs
   add_fit(chart, first.result, highest, canvas);
   add_marks(chart, first, canvas);
 
-  set_axis(chart->GetAxis(vtkAxis::BOTTOM), 100.0 * longest, 1.0, canvas);
-  set_axis(chart->GetAxis(vtkAxis::LEFT), top, 1.0, canvas);
+  set_axis(chart->GetAxis(vtkAxis::BOTTOM), 0.0, 100.0 * longest, canvas);
+  set_axis(chart->GetAxis(vtkAxis::LEFT), 0.0, top, canvas);
   if (most > 0.0) {
     chart->SetPlotCorner(add_plot(chart, vtkChart::LINE, {{0.0, 0.0}, {0.0, 0.0}}, "", kBars, 0),
                          1);  // brings up the right axis
-    set_axis(chart->GetAxis(vtkAxis::RIGHT), top, kBarHeadroom * most / top, canvas);
-    add_text(renderer, canvas, "broken bonds per bin", 0.965, kArea.middle_y(),
-             {.size = 36, .align = Align::centre, .angle = 90});
+    set_axis(chart->GetAxis(vtkAxis::RIGHT), 0.0, top, canvas, kBarHeadroom * most / top);
+    sheet.write_upright("broken bonds per bin", 0.965, kArea.middle_y());
   }
-  add_text(renderer, canvas, "strain (%)", kArea.middle_x(), 0.042, {.size = 36, .align = Align::centre});
-  add_text(renderer, canvas, "stress (MPa)", 0.032, kArea.middle_y(),
-           {.size = 36, .align = Align::centre, .angle = 90});
-  return canvas.draw();
+  sheet.write("strain (%)", kArea.middle_x(), 0.042);
+  sheet.write_upright("stress (MPa)", 0.032, kArea.middle_y());
+  return sheet.draw();
 }
 
 }  // namespace pendular::viz

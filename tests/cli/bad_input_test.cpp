@@ -29,7 +29,10 @@ TEST_P(BadInput, GivesOneLineAndTheRightStatus) {
   ScratchFolder folder;
   write_text(folder / "s.toml", test::small_sample());
   write_text(folder / "typo.toml", "[beads]\ndiametr_um = 200\n");
-  write_text(folder / "no_stiffness.toml", "[beads]\ndiameter_um = 200\n");
+  write_text(folder / "half_stiffness.toml", "[bridges]\nnormal_stiffness_n_per_m = 5760\n");
+  write_text(folder / "two_stiffnesses.toml",
+             "[bridges]\nstiffness = \"per_bridge\"\nnormal_stiffness_n_per_m = 5760\n"
+             "tangential_stiffness_n_per_m = 325\n");
   write_text(folder / "two.csv", kTwoBeads);
   write_text(folder / "one.csv", "bead_id,x_um,y_um,z_um,diameter_um\n1,0,0,0,200\n");
   write_text(folder / "same_id.csv", "bead_id,x_um,y_um,z_um,diameter_um\n1,0,0,0,200\n1,0,0,205,200\n");
@@ -70,10 +73,10 @@ INSTANTIATE_TEST_SUITE_P(
                    "$P pack one.csv --sample s.toml -o one.vtp --quiet && $P compress one.vtp --sample "
                    "s.toml -o out",
                    3, "found 1 bead"},
-        BadCommand{"NoStiffness",
-                   "$P pack two.csv --sample no_stiffness.toml -o two.vtp --quiet && $P compress two.vtp "
-                   "--sample no_stiffness.toml -o out",
-                   3, "normal_stiffness_n_per_m"},
+        BadCommand{"HalfAStiffness", "$P pack two.csv --sample half_stiffness.toml -o out.vtp", 3,
+                   "tangential_stiffness_n_per_m: expected both or neither"},
+        BadCommand{"StiffnessStatedAndPerBridge", "$P pack two.csv --sample two_stiffnesses.toml -o out.vtp",
+                   3, "per_bridge"},
         BadCommand{"NotAPacking", "$P compress two.csv --sample s.toml -o out", 3, "two.csv"},
         BadCommand{"FolderIsAFile",
                    "$P pack two.csv --sample s.toml -o two.vtp --quiet && $P compress two.vtp --sample "

@@ -10,6 +10,7 @@
 #include "dem_core/checkpoint.h"
 #include "dem_core/run_folder.h"
 #include "dem_core/stepper.h"
+#include "micromechanics/stiffness.h"
 #include "packing/bridges.h"
 #include "packing/polydata.h"
 #include "scratch.h"
@@ -82,6 +83,34 @@ TEST(Compress, ChainOfBondsHasTheStiffnessOfSpringsInSeries) {
   const CurveRow& last = result.rows.back();
   EXPECT_NEAR(last.stress / last.strain, 9.0 * k_column * height / section, 0.02 * last.stress / last.strain);
   EXPECT_NEAR(last.stress_bottom, last.stress, 0.02 * last.stress);
+}
+
+TEST(Compress, BridgesOfDifferentGapsAreDifferentSpringsInSeries) {
+  // One column of five beads whose gaps are 2, 6, 10 and 4 µm, each bridge with its own kn by finite
+  // elements.
+  Sample sample = sample_a();
+  sample.bridges.normal_stiffness = sample.bridges.tangential_stiffness = std::nullopt;
+  sample.bridges.stiffness = "per_bridge";
+  sample.compression.max_strain = 5e-4;
+  sample.compression.speed = 5e-7;  // slow: what damping adds to the stress is below 1 %
+  sample.contact.damping_fraction = 0.5;
+  Packing packing = columns(1, 5, 0.0);
+  const double gaps[] = {2e-6, 6e-6, 10e-6, 4e-6};
+  double shift = 0.0, compliance = 0.0;  // of the beads; of the bridges in series, m/N
+  const double k_glass = 10.0 * bond_stiffness(sample).normal;
+  for (int k = 0; k < 4; ++k) {
+    shift += gaps[k];
+    packing.beads[k + 1].centre.z() += shift;
+    const BridgeBody body = {sample.bridges.diameter, gaps[k], 200.9e-6, 200.9e-6};
+    compliance += 1.0 / bridge_stiffness(body, polymer_of(sample)).normal;
+  }
+  packing.bridges = candidate_bridges(packing.beads, 0.064 * 200.9e-6);
+  ScratchFolder folder;
+  const CompressResult result = compress(packing, sample, folder / "run", {});
+  const double height = 5 * 200.9e-6 + shift, section = 0.25 * M_PI * 4.25e-3 * 4.25e-3;
+  const CurveRow& last = result.rows.back();
+  const double expected = height / section / (compliance + 2.0 / k_glass);
+  EXPECT_NEAR(last.stress / last.strain, expected, 0.02 * expected);
 }
 
 TEST(Compress, WorkOfThePlatenIsFoundAgain) {
