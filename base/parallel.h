@@ -11,6 +11,9 @@ namespace pendular {
 /// Limits every parallel loop of the program to `threads` (0: one per core). Call once, from main.
 void set_threads(int threads);
 
+/// Threads that a parallel loop may use.
+std::size_t thread_count();
+
 /// Calls body(first, last) over [0, size) cut into blocks of `block`. The blocks do not depend on the
 /// number of threads, so a sum kept per block and added in order of blocks is bitwise the same for any.
 template <typename Body>

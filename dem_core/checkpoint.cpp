@@ -8,7 +8,7 @@
 namespace pendular {
 namespace {
 
-constexpr char kMagic[] = "pendular checkpoint 1\n";
+constexpr char kMagic[] = "pendular checkpoint 2\n";
 
 struct Writer {
   std::string bytes;
@@ -51,6 +51,11 @@ void visit(Archive& archive, Vec3& v) {
   for (int axis = 0; axis < 3; ++axis) archive.scalar(v[axis]);
 }
 
+template <typename Archive>
+void visit(Archive& archive, Triple<double>& v) {
+  for (double* component : {&v.x, &v.y, &v.z}) archive.scalar(*component);
+}
+
 template <typename Archive, typename T>
 void visit(Archive& archive, std::vector<T>& values) {
   values.resize(archive.length(values.size()));
@@ -64,8 +69,10 @@ void fields(Archive& archive, Fields&... all) {
 
 template <typename Archive>
 void visit(Archive& a, Pair& p) {
-  auto& [rest, touch, kn, kt, limit] = p.properties;
-  fields(a, p.i, p.j, p.bond, rest, touch, kn, kt, limit, p.history.bond_slip, p.history.contact_slip);
+  auto& [rest, touch, kn, kt, limit, bend, twist] = p.properties;
+  auto& [bond_slip, contact_slip, turn, closing] = p.history;
+  fields(a, p.i, p.j, p.bond, rest, touch, kn, kt, limit, bend, twist, bond_slip, contact_slip, turn,
+         closing);
 }
 
 template <typename Archive>
@@ -75,7 +82,7 @@ void visit(Archive& a, Bond& b) {
 
 template <typename Archive>
 void visit(Archive& a, Platen& p) {
-  fields(a, p.z, p.velocity, p.normal_sign, p.slip, p.force);
+  fields(a, p.z, p.velocity, p.normal_sign, p.slip, p.closing, p.force);
 }
 
 template <typename Archive>
@@ -91,13 +98,14 @@ void visit(Archive& a, BeadStates& b) {
 template <typename Archive>
 void visit(Archive& a, LawParameters& l) {
   fields(a, l.k_glass, l.kt_glass, l.friction, l.platen_friction, l.damping, l.one_spring,
-         l.bond_friction_limit);
+         l.bond_friction_limit, l.bending);
 }
 
 template <typename Archive>
 void visit(Archive& a, Simulation& s) {
   fields(a, s.law, s.dt, s.steps, s.beads, s.pairs, s.bonds, s.bottom, s.top, s.initial_height, s.section,
-         s.skin, s.listed_at, s.events, s.work.platen, s.work.damped, s.work.slipped, s.work.broken);
+         s.skin, s.listed_at, s.bottom_listed_at, s.top_listed_at, s.events, s.work.platen, s.work.damped,
+         s.work.slipped, s.work.broken);
 }
 
 template <typename Archive>

@@ -38,6 +38,9 @@ class Test {
     steps_per_row_ = std::max(1, static_cast<int>(std::lround(row_time / s.dt)));
   }
 
+  /// Makes the simulation true, for a checkpoint.
+  void store() { stepper_.store(); }
+
   /// Strain, as a share of the way, for progress.
   double done() const { return state_.simulation.strain(); }
 
@@ -55,6 +58,7 @@ class Test {
 
  private:
   void close_row() {
+    stepper_.store();
     const Simulation& s = state_.simulation;
     auto& open = state_.open_row;
     const Energies now = energies(s);
@@ -115,6 +119,7 @@ class Test {
   }
 
   void write_next_frame() {
+    stepper_.store();
     const double stress = state_.rows.empty() ? 0.0 : state_.rows.back().stress;
     write_frame(folder_ / "frames" / fmt::format("frame_{:04d}.vtp", state_.frames_written),
                 state_.simulation, ids_, stress);
@@ -149,6 +154,7 @@ void run(RunState& state, const Sample& sample, const fs::path& folder, std::vec
   while (!state.finished) {
     test.step();
     if (interrupted()) {
+      test.store();
       write_checkpoint(folder / "checkpoint", state, identity);
       throw Interrupted(fmt::format(
           "interrupted at strain {:.4f}; continue with the same command and --resume", test.done()));
@@ -156,9 +162,11 @@ void run(RunState& state, const Sample& sample, const fs::path& folder, std::vec
     if (state.open_row.steps != 0) continue;
     progress.update(test.done(), progress_note(state));
     if (seconds_since(last_checkpoint) < checkpoint_every) continue;
+    test.store();
     write_checkpoint(folder / "checkpoint", state, identity);
     last_checkpoint = Clock::now();
   }
+  test.store();
   write_checkpoint(folder / "checkpoint", state, identity);
 }
 

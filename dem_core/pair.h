@@ -1,109 +1,84 @@
 #pragma once
 
-#include "dem_core/laws.h"
+#include "base/vec3.h"
+#include "dem_core/pair-inl.h"
 
 namespace pendular {
 
-/// Two beads as a pair sees them; SI.
-struct PairMotion {
-  Vec3 apart;           ///< r_i − r_j
-  Vec3 velocity;        ///< v_i − v_j
-  Vec3 spin_i, spin_j;  ///< angular velocities
-  double radius_i, radius_j;
-};
+using PairHistory = HWY_NAMESPACE::PairMemory<double>;
+using PairForce = HWY_NAMESPACE::PairAction<double>;
+using HWY_NAMESPACE::Triple;
 
-/// What a pair remembers between steps.
-struct PairHistory {
-  Vec3 bond_slip = Vec3::Zero();  ///< δt since the start, of the bond (and of the contact, with one spring)
-  Vec3 contact_slip = Vec3::Zero();  ///< δt since touch, of the contact
-};
-
-/// What a pair does in one step.
-struct PairForce {
-  Vec3 force = Vec3::Zero();   ///< on bead i; minus this on bead j
-  Vec3 couple = Vec3::Zero();  ///< n × F^t; the torque on either bead is minus its arm times this
-  double half_gap = 0.0;       ///< arm of a bead: its radius + half_gap, so that both meet in mid-gap
-  double normal = 0.0;         ///< F^n without damping, N
-  double damped = 0.0;         ///< energy lost to damping in the step, J
-  double slipped = 0.0;        ///< energy lost to sliding in the step, J
-  bool touching = false;
-  bool breaks = false;
-};
-
-/// Advances the pair's tangential springs by the motion of one time step and returns its force.
-///
-/// The arms end in mid-gap, not on the surfaces as in the paper's eq. 2: only then does a pair that turns as
-/// a rigid body feel no shear, and angular momentum is conserved.
-inline PairForce advance_pair(const PairMotion& motion, const PairProperties& pair, const LawParameters& law,
-                              double dt, PairHistory& history) {
-  PairForce out;
-  const double distance = motion.apart.norm();
-  const double gap = distance - (motion.radius_i + motion.radius_j);
-  const bool bonded = pair.kn > 0.0;
-  out.touching = gap <= pair.touch;
-  if (!bonded && !out.touching) {
-    history = {};
-    return out;
-  }
-  const Vec3 n = motion.apart / distance;
-  out.half_gap = 0.5 * gap;
-  const double arm_i = motion.radius_i + out.half_gap, arm_j = motion.radius_j + out.half_gap;
-  const double closing = motion.velocity.dot(n);
-  const Vec3 surface = motion.velocity - (arm_i * motion.spin_i + arm_j * motion.spin_j).cross(n);
-  const Vec3 step = (surface - surface.dot(n) * n) * dt;
-  const double spin = 0.5 * (motion.spin_i + motion.spin_j).dot(n) * dt;
-
-  const double glass = contact_force(gap, pair.touch, law.k_glass);
-  const double bond = bonded ? bond_force(gap, pair) : 0.0;
-  out.normal = glass + bond;
-  Vec3 tangential = Vec3::Zero();
-  if (law.one_spring) {
-    history.bond_slip = carried(history.bond_slip, n, spin) + step;
-    const double k = out.touching ? law.kt_glass : pair.kt;
-    if (out.touching || law.bond_friction_limit)
-      out.slipped = limit_slip(history.bond_slip, k, law.friction * std::fabs(out.normal));
-    tangential = -k * history.bond_slip;
-  } else {
-    if (bonded) {
-      history.bond_slip = carried(history.bond_slip, n, spin) + step;
-      if (law.bond_friction_limit)
-        out.slipped += limit_slip(history.bond_slip, pair.kt, law.friction * std::fabs(bond));
-      tangential -= pair.kt * history.bond_slip;
-    }
-    if (out.touching) {
-      history.contact_slip = carried(history.contact_slip, n, spin) + step;
-      out.slipped += limit_slip(history.contact_slip, law.kt_glass, law.friction * glass);
-      tangential -= law.kt_glass * history.contact_slip;
-    } else {
-      history.contact_slip.setZero();
-    }
-  }
-  out.damped = law.damping * closing * closing * dt;
-  out.force = (out.normal - law.damping * closing) * n + tangential;
-  out.couple = n.cross(tangential);
-  out.breaks = bonded && breaks(gap, history.bond_slip, pair);
-  return out;
+inline Triple<double> triple(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+inline Vec3 vec3(const Triple<double>& t) {
+  return {t.x, t.y, t.z};
 }
 
-/// Energy stored in a pair's springs, J.
-inline double pair_energy(double gap, const PairProperties& pair, const PairHistory& history,
-                          const LawParameters& law) {
-  const bool touching = gap <= pair.touch;
-  double energy = normal_energy(gap, pair, law.k_glass);
-  if (law.one_spring)
-    return energy + 0.5 * (touching ? law.kt_glass : pair.kt) * history.bond_slip.squaredNorm();
-  energy += 0.5 * pair.kt * history.bond_slip.squaredNorm();
-  if (touching) energy += 0.5 * law.kt_glass * history.contact_slip.squaredNorm();
-  return energy;
+inline LawNumbers<double> numbers(const LawParameters& law, double dt) {
+  return {law.k_glass, law.kt_glass, law.friction, law.damping, dt, 0.5 * dt, 0.5 * law.damping * dt};
+}
+inline LawParts parts(const LawParameters& law) {
+  return {law.one_spring, law.bond_friction_limit, law.bending};
+}
+
+/// One bead as its pairs see it; SI.
+struct BeadMotion {
+  Vec3 position, velocity, spin;
+  double radius;
+};
+
+/// Advances the pair's springs by the motion of one time step and returns its force.
+inline PairForce advance_pair(const BeadMotion& i, const BeadMotion& j, const PairProperties& pair,
+                              const LawParameters& law, double dt, PairHistory& history) {
+  const HWY_NAMESPACE::PairMotion<double> motion = {triple(i.position - j.position),
+                                                    triple(i.velocity - j.velocity),
+                                                    triple(i.radius * i.spin + j.radius * j.spin),
+                                                    triple(i.spin + j.spin),
+                                                    triple(i.spin - j.spin),
+                                                    i.radius + j.radius};
+  return HWY_NAMESPACE::advance_pair<true>(motion, pair, numbers(law, dt), parts(law), history);
+}
+
+/// Torques of a pair's force on its beads, N m.
+inline Vec3 torque_on_i(const PairForce& force, double radius_i) {
+  return -(radius_i + force.half_gap) * vec3(force.couple) + vec3(force.moment);
+}
+inline Vec3 torque_on_j(const PairForce& force, double radius_j) {
+  return -(radius_j + force.half_gap) * vec3(force.couple) - vec3(force.moment);
+}
+
+/// F^n without damping, N; positive pushes apart.
+inline double normal_force(double gap, const PairProperties& pair, const LawParameters& law) {
+  return HWY_NAMESPACE::contact_force(gap, pair.touch, law.k_glass) + HWY_NAMESPACE::bond_force(gap, pair);
+}
+
+inline bool breaks(double gap, const PairProperties& pair, const PairHistory& history) {
+  return pair.kn > 0.0 && HWY_NAMESPACE::breaks(gap, history.bond_slip, pair);
+}
+
+/// Energy stored in a pair's springs, J; `apart` is r_i − r_j, `radii` the sum of both.
+inline double pair_energy(const Vec3& apart, double radii, const PairProperties& pair,
+                          const PairHistory& history, const LawParameters& law) {
+  const double distance = apart.norm(), gap = distance - radii;
+  const double bond_shear = dot(history.bond_slip, history.bond_slip);
+  double energy = HWY_NAMESPACE::normal_energy(gap, pair, law.k_glass) +
+                  HWY_NAMESPACE::bending_energy(history.turn, triple(apart / distance), pair);
+  if (law.one_spring) return energy + 0.5 * (gap <= pair.touch ? law.kt_glass : pair.kt) * bond_shear;
+  return energy + 0.5 * pair.kt * bond_shear +
+         0.5 * law.kt_glass * dot(history.contact_slip, history.contact_slip);
 }
 
 /// Takes the bond from a pair; returns the energy this releases, J. With one spring the displacement of a
 /// touching pair stays, as friction.
-inline double break_bond(double gap, const LawParameters& law, PairProperties& pair, PairHistory& history) {
-  const double before = pair_energy(gap, pair, history, law);
-  pair.kn = pair.kt = 0.0;
-  if (!law.one_spring || gap > pair.touch) history.bond_slip.setZero();
-  return before - pair_energy(gap, pair, history, law);
+inline double break_bond(const Vec3& apart, double radii, const LawParameters& law, PairProperties& pair,
+                         PairHistory& history) {
+  const double before = pair_energy(apart, radii, pair, history, law);
+  pair.kn = pair.kt = pair.k_bend = pair.k_twist = 0.0;
+  history.turn = {};
+  if (!law.one_spring || apart.norm() - radii > pair.touch) history.bond_slip = {};
+  return before - pair_energy(apart, radii, pair, history, law);
 }
 
 }  // namespace pendular

@@ -34,14 +34,10 @@ void add_lines(PolyTable& table, const Simulation& simulation) {
     force.push_back(normal);
     state.push_back(kind);
   };
-  const auto& beads = simulation.beads;
   for (const auto& pair : simulation.pairs) {
-    const double gap = (beads.position[pair.i] - beads.position[pair.j]).norm() - beads.radius[pair.i] -
-                       beads.radius[pair.j];
-    if (pair.bond < 0 && gap > pair.properties.touch) continue;
-    const double glass = contact_force(gap, pair.properties.touch, simulation.law.k_glass);
-    const double bond = pair.bond >= 0 ? bond_force(gap, pair.properties) : 0.0;
-    add(pair.i, pair.j, glass + bond, pair.bond >= 0 ? 0 : 2);
+    const double apart_by = gap(simulation, pair);
+    if (pair.bond < 0 && apart_by > pair.properties.touch) continue;
+    add(pair.i, pair.j, normal_force(apart_by, pair.properties, simulation.law), pair.bond >= 0 ? 0 : 2);
   }
   for (const auto& bond : simulation.bonds)
     if (bond.broken) add(bond.i, bond.j, 0.0, 1);

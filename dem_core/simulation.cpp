@@ -119,8 +119,9 @@ void place_platens(Simulation& simulation, double speed) {
     highest = std::max(highest, beads.position[k].z() + beads.radius[k]);
   }
   const std::vector<Vec3> no_slip(beads.size(), Vec3::Zero());
-  simulation.bottom = {lowest, speed, 1.0, no_slip, 0.0};
-  simulation.top = {highest, 0.0, -1.0, no_slip, 0.0};
+  const std::vector<double> no_closing(beads.size(), 0.0);
+  simulation.bottom = {lowest, speed, 1.0, no_slip, no_closing, 0.0};
+  simulation.top = {highest, 0.0, -1.0, no_slip, no_closing, 0.0};
   simulation.initial_height = highest - lowest;
 }
 
@@ -155,7 +156,7 @@ Simulation build_simulation(const Packing& packing, const Sample& sample) {
   sort_pairs(simulation.pairs);
   place_platens(simulation, platen_speed(sample));
   simulation.section = 0.25 * M_PI * sample.specimen.diameter * sample.specimen.diameter;
-  simulation.skin = 0.05 * sample.beads.diameter;
+  simulation.skin = 0.015 * sample.beads.diameter;
   simulation.dt = time_step(simulation, sample.contact.time_step_fraction);
   list_pairs(simulation);
   return simulation;
@@ -189,6 +190,8 @@ void list_pairs(Simulation& simulation) {
   keep_old_before({std::numeric_limits<int>::max(), 0});
   simulation.pairs = std::move(listed);
   simulation.listed_at = beads.position;
+  simulation.bottom_listed_at = simulation.bottom.z;
+  simulation.top_listed_at = simulation.top.z;
 }
 
 Energies energies(const Simulation& simulation) {
@@ -198,9 +201,8 @@ Energies energies(const Simulation& simulation) {
     total.kinetic += 0.5 * (beads.mass[k] * beads.velocity[k].squaredNorm() +
                             beads.inertia[k] * beads.spin[k].squaredNorm());
   for (const auto& pair : simulation.pairs) {
-    const double distance = (beads.position[pair.i] - beads.position[pair.j]).norm();
-    total.elastic += pair_energy(distance - beads.radius[pair.i] - beads.radius[pair.j], pair.properties,
-                                 pair.history, simulation.law);
+    total.elastic += pair_energy(apart(simulation, pair), beads.radius[pair.i] + beads.radius[pair.j],
+                                 pair.properties, pair.history, simulation.law);
   }
   for (const Platen* platen : {&simulation.bottom, &simulation.top})
     for (std::size_t k = 0; k < beads.size(); ++k) {
@@ -212,14 +214,36 @@ Energies energies(const Simulation& simulation) {
   return total;
 }
 
+void break_bond(Simulation& simulation, Pair& pair) {
+  const auto& beads = simulation.beads;
+  BreakEvent event;
+  event.strain = simulation.strain();
+  event.i = pair.i;
+  event.j = pair.j;
+  event.place = 0.5 * (beads.position[pair.i] + beads.position[pair.j]);
+  event.stretch = gap(simulation, pair) - pair.properties.rest;
+  event.shear = std::sqrt(dot(pair.history.bond_slip, pair.history.bond_slip));
+  event.energy = break_bond(apart(simulation, pair), beads.radius[pair.i] + beads.radius[pair.j],
+                            simulation.law, pair.properties, pair.history);
+  simulation.work.broken += event.energy;
+  simulation.bonds[pair.bond].broken = true;
+  pair.bond = -1;
+  simulation.events.push_back(event);
+}
+
+void advance_platens(Simulation& simulation) {
+  Platen &bottom = simulation.bottom, &top = simulation.top;
+  simulation.work.platen += simulation.dt * (bottom.force * bottom.velocity - top.force * top.velocity);
+  for (Platen* platen : {&bottom, &top}) platen->z += simulation.dt * platen->velocity;
+  ++simulation.steps;
+}
+
 BeadContacts bead_contacts(const Simulation& simulation) {
   const auto& beads = simulation.beads;
   BeadContacts count{std::vector<int>(beads.size()), std::vector<int>(beads.size())};
   for (const auto& pair : simulation.pairs) {
-    const double distance = (beads.position[pair.i] - beads.position[pair.j]).norm();
     if (pair.bond >= 0) ++count.bonds[pair.i], ++count.bonds[pair.j];
-    if (distance - beads.radius[pair.i] - beads.radius[pair.j] <= pair.properties.touch)
-      ++count.touching[pair.i], ++count.touching[pair.j];
+    if (gap(simulation, pair) <= pair.properties.touch) ++count.touching[pair.i], ++count.touching[pair.j];
   }
   return count;
 }

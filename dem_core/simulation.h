@@ -5,17 +5,19 @@
 
 #include "base/sample.h"
 #include "dem_core/pair.h"
+#include "dem_core/platen.h"
 #include "packing/packing.h"
 
 namespace pendular {
 
 /// Beads of a running simulation, in the packing's order; SI. Velocities are half a step behind positions
-/// (leapfrog).
+/// (leapfrog), what pairs remember is one step behind.
 struct BeadStates {
   std::vector<Vec3> position, velocity, spin;
   std::vector<double> radius, mass, inertia;
   std::vector<Vec3> start;  ///< positions before the test
   std::size_t size() const { return position.size(); }
+  BeadMotion motion(std::size_t k) const { return {position[k], velocity[k], spin[k], radius[k]}; }
 };
 
 /// A pair that may act: every bonded pair, and every pair closer than the neighbour list's skin.
@@ -23,22 +25,13 @@ struct Pair {
   int i = 0, j = 0;  ///< i < j
   int bond = -1;     ///< index into Simulation::bonds while the bond stands
   PairProperties properties;
-  PairHistory history;
+  PairHistory history = {};
 };
 
 /// A bond of the packing.
 struct Bond {
   int i = 0, j = 0;
   bool broken = false;
-};
-
-/// One horizontal platen: a rigid wall that only touches.
-struct Platen {
-  double z = 0.0;            ///< of the face, m
-  double velocity = 0.0;     ///< along z, m/s
-  double normal_sign = 1.0;  ///< +1: beads are above it; −1: below
-  std::vector<Vec3> slip;    ///< tangential displacement per bead since touch, m
-  double force = 0.0;        ///< on the platen, compression positive, N, in the last step
 };
 
 /// A bond that has broken, as events.csv reports it.
@@ -65,10 +58,11 @@ struct Simulation {
   std::vector<Pair> pairs;  ///< sorted by (i, j)
   std::vector<Bond> bonds;
   Platen bottom, top;
-  double initial_height = 0.0;  ///< distance of the platens at the start, m
-  double section = 0.0;         ///< initial cross-section, m²
-  double skin = 0.0;            ///< pairs are listed up to this gap, m
-  std::vector<Vec3> listed_at;  ///< positions when the pairs were listed
+  double initial_height = 0.0;                         ///< distance of the platens at the start, m
+  double section = 0.0;                                ///< initial cross-section, m²
+  double skin = 0.0;                                   ///< pairs are listed up to this gap, m
+  std::vector<Vec3> listed_at;                         ///< positions when the pairs were listed
+  double bottom_listed_at = 0.0, top_listed_at = 0.0;  ///< of the platens' faces
   std::vector<BreakEvent> events;
   Work work;
 
@@ -95,6 +89,20 @@ double platen_speed(const Sample& sample);
 void list_pairs(Simulation& simulation);
 
 Energies energies(const Simulation& simulation);
+
+/// r_i − r_j of a pair, and its gap δn.
+inline Vec3 apart(const Simulation& simulation, const Pair& pair) {
+  return simulation.beads.position[pair.i] - simulation.beads.position[pair.j];
+}
+inline double gap(const Simulation& simulation, const Pair& pair) {
+  return apart(simulation, pair).norm() - simulation.beads.radius[pair.i] - simulation.beads.radius[pair.j];
+}
+
+/// Breaks a bond: its pair's springs, the bond list, the sums and the list of events.
+void break_bond(Simulation& simulation, Pair& pair);
+
+/// Ends a step: books the platens' work, moves them, counts the step.
+void advance_platens(Simulation& simulation);
 
 /// Number of standing bonds and of touching pairs, per bead: bonds first, touching second.
 struct BeadContacts {

@@ -1,196 +1,350 @@
 #include "dem_core/stepper.h"
 
 #include <algorithm>
-
-#ifdef __SSE2__
-#include <immintrin.h>
-#endif
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
 
 #include "base/parallel.h"
+#include "dem_core/flush_denormals.h"
+#include "dem_core/step_kernels.h"
 
 namespace pendular {
 namespace {
 
-/// Ahead of an elastic wave the motion is denormal numbers, a hundred times slower to add than zeros.
-void flush_denormals() {
-#ifdef __SSE2__
-  _mm_setcsr(_mm_getcsr() | 0x8040);  // flush to zero, denormals are zero
-#endif
+constexpr std::size_t kBeadsPerChunk = 256;
+
+// More shares even out threads that are not equally fast; fewer let more beads move at once.
+constexpr std::size_t kSharesPerThread = 8;
+
+std::size_t filled_up(std::size_t size) {
+  return (size + kBlock - 1) / kBlock * kBlock;
 }
 
-constexpr std::size_t kPairBlock = 1024, kBeadBlock = 512;
-
-std::size_t blocks(std::size_t size, std::size_t block) {
-  return (size + block - 1) / block;
+/// Every third bit of the result, from bit 0 up, is one of `cell`.
+std::uint64_t spread_bits(std::uint64_t cell) {
+  std::uint64_t spread = 0;
+  for (int bit = 0; bit < 21; ++bit) spread |= (cell >> bit & 1) << (3 * bit);
+  return spread;
 }
 
+/// Place on a curve that keeps neighbours in space close (Morton's order of cells).
+std::uint64_t place_on_curve(const Vec3& from_corner, double cell) {
+  std::uint64_t place = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    place |= spread_bits(static_cast<std::uint64_t>(from_corner[axis] / cell)) << axis;
+  return place;
+}
+
+void put(double* row, const Vec3& v) {
+  for (int axis = 0; axis < 3; ++axis) row[axis] = v[axis];
+}
+Vec3 get(const double* row) {
+  return {row[0], row[1], row[2]};
+}
 }  // namespace
 
 Stepper::Stepper(Simulation& simulation) : simulation_(simulation) {
-  index_slots();
+  load();
 }
 
-void Stepper::index_slots() {
-  const auto& pairs = simulation_.pairs;
-  const std::size_t beads = simulation_.beads.size();
-  first_slot_.assign(beads + 1, 0);
-  for (const auto& pair : pairs) ++first_slot_[pair.i + 1], ++first_slot_[pair.j + 1];
-  for (std::size_t k = 0; k < beads; ++k) first_slot_[k + 1] += first_slot_[k];
-  slots_.resize(2 * pairs.size());
-  std::vector<int> next(first_slot_.begin(), first_slot_.end() - 1);
-  for (int p = 0; p < static_cast<int>(pairs.size()); ++p) {
-    slots_[next[pairs[p].i]++] = {p, 1.0};
-    slots_[next[pairs[p].j]++] = {p, -1.0};
+void Stepper::load() {
+  order_beads();
+  load_beads();
+  cut_chunks();
+  load_pairs();
+  share_sums();
+  find_beads_near_platens();
+  share_chunks();
+}
+
+void Stepper::order_beads() {
+  const auto& at = simulation_.listed_at;
+  Vec3 corner = at.front();
+  for (const auto& x : at) corner = corner.cwiseMin(x);
+  const double cell = 2.0 * simulation_.beads.radius.front();
+  std::vector<std::uint64_t> place;
+  for (const auto& x : at) place.push_back(place_on_curve(x - corner, cell));
+  bead_of_.resize(at.size());
+  std::iota(bead_of_.begin(), bead_of_.end(), 0);
+  std::stable_sort(bead_of_.begin(), bead_of_.end(),
+                   [&](std::size_t a, std::size_t b) { return place[a] < place[b]; });
+  row_of_.resize(at.size());
+  for (std::size_t row = 0; row < at.size(); ++row) row_of_[bead_of_[row]] = static_cast<std::int32_t>(row);
+}
+
+void Stepper::load_beads() {
+  const auto& beads = simulation_.beads;
+  const std::size_t size = beads_.size = beads.size();
+  // Two more rows, apart by one metre, are the beads of the pairs that fill up blocks.
+  beads_.rows.assign(kBeadRow * (size + 2), 0.0);
+  beads_.rows[kBeadRow * (size + 1)] = 1.0;
+  beads_.listed_rows.assign(4 * size, 0.0F);
+  beads_.step_over_inertia.assign(size, 0.0);
+  for (std::size_t row = 0; row < size; ++row) {
+    const std::size_t k = bead_of_[row];
+    double* bead = &beads_.rows[kBeadRow * row];
+    put(bead, beads.position[k]);
+    put(bead + 4, beads.velocity[k]);
+    put(bead + 8, beads.spin[k]);
+    bead[3] = bead[11] = beads.radius[k];
+    bead[7] = simulation_.dt / beads.mass[k];
+    beads_.step_over_inertia[row] = simulation_.dt / beads.inertia[k];
+    float* listed = &beads_.listed_rows[4 * row];
+    for (int axis = 0; axis < 3; ++axis) listed[axis] = static_cast<float>(simulation_.listed_at[k][axis]);
+    listed[3] = static_cast<float>(beads.radius[k]);
   }
-  forces_.assign(pairs.size(), {});
-  pair_sums_.assign(blocks(pairs.size(), kPairBlock), {});
-  bead_sums_.assign(blocks(beads, kBeadBlock), {});
+}
+
+/// Cuts the rows of beads into chunks and gives each pair to the chunk of its first row.
+void Stepper::cut_chunks() {
+  const auto& pairs = simulation_.pairs;
+  const auto& at = simulation_.listed_at;
+  const auto& radius = simulation_.beads.radius;
+  chunks_.assign((beads_.size + kBeadsPerChunk - 1) / kBeadsPerChunk, {});
+  std::vector<std::array<std::vector<std::int64_t>, 2>> owned(chunks_.size());
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const int i = pairs[p].i, j = pairs[p].j;
+    const double listed_gap = (at[i] - at[j]).norm() - radius[i] - radius[j];
+    // With one spring the contact's part of the law is in every pair.
+    const bool touchable =
+        listed_gap - pairs[p].properties.touch <= simulation_.skin || simulation_.law.one_spring;
+    owned[std::min(row_of_[i], row_of_[j]) / kBeadsPerChunk][touchable].push_back(
+        static_cast<std::int64_t>(p));
+  }
+  const auto by_row = [&](std::int64_t a, std::int64_t b) {
+    return std::pair(row_of_[pairs[a].i], row_of_[pairs[a].j]) <
+           std::pair(row_of_[pairs[b].i], row_of_[pairs[b].j]);
+  };
+  pair_of_.clear();
+  const auto append = [&](std::vector<std::int64_t>& group) {
+    std::sort(group.begin(), group.end(), by_row);
+    pair_of_.insert(pair_of_.end(), group.begin(), group.end());
+    pair_of_.resize(filled_up(pair_of_.size()), -1);
+    return pair_of_.size() / kBlock;
+  };
+  std::size_t contacts = 0;
+  for (std::size_t c = 0; c < chunks_.size(); ++c) {
+    Chunk& chunk = chunks_[c];
+    chunk.first_bead = c * kBeadsPerChunk;
+    chunk.first_source = c;
+    chunk.last_bead = std::min(beads_.size, chunk.first_bead + kBeadsPerChunk);
+    chunk.first_block = pair_of_.size() / kBlock;
+    chunk.touchable = append(owned[c][0]);
+    chunk.last_block = append(owned[c][1]);
+    chunk.first_contact = contacts;
+    contacts += chunk.last_block - chunk.touchable;
+  }
+}
+
+void Stepper::load_pairs() {
+  const auto ghost = static_cast<std::uint32_t>(kBeadRow * beads_.size);
+  PairBlock empty{};
+  std::fill_n(empty.i, kBlock, ghost);
+  std::fill_n(empty.j, kBlock, ghost + kBeadRow);
+  pairs_.blocks.assign(pair_of_.size() / kBlock, empty);
+  pairs_.bends.assign(simulation_.law.bending ? pairs_.blocks.size() : 0, BendBlock{});
+  const Chunk& last = chunks_.back();
+  pairs_.contacts.assign(last.first_contact + last.last_block - last.touchable, ContactBlock{});
+  for (const auto& chunk : chunks_)
+    for (std::size_t p = chunk.first_block * kBlock; p < chunk.last_block * kBlock; ++p)
+      if (pair_of_[p] >= 0) load_pair(chunk, p);
+}
+
+/// The contact block of a pair, or none.
+ContactBlock* Stepper::contact_of(const Chunk& chunk, std::size_t p) {
+  const std::size_t b = p / kBlock;
+  return b < chunk.touchable ? nullptr : &pairs_.contacts[chunk.first_contact + b - chunk.touchable];
+}
+
+void Stepper::load_pair(const Chunk& chunk, std::size_t p) {
+  const Pair& pair = simulation_.pairs[pair_of_[p]];
+  const PairProperties& own = pair.properties;
+  const PairHistory& history = pair.history;
+  const std::size_t at = p % kBlock;
+  PairBlock& block = pairs_.blocks[p / kBlock];
+  block.i[at] = kBeadRow * row_of_[pair.i], block.j[at] = kBeadRow * row_of_[pair.j];
+  block.rest[at] = own.rest;
+  block.kn[at] = static_cast<float>(own.kn), block.kt[at] = static_cast<float>(own.kt);
+  block.break_limit[at] = static_cast<float>(own.break_limit);
+  block.closing[at] = static_cast<float>(history.closing);
+  block.slip_x[at] = history.bond_slip.x, block.slip_y[at] = history.bond_slip.y;
+  block.slip_z[at] = history.bond_slip.z;
+  if (ContactBlock* contact = contact_of(chunk, p)) {
+    contact->touch[at] = own.touch;
+    contact->slip_x[at] = history.contact_slip.x, contact->slip_y[at] = history.contact_slip.y;
+    contact->slip_z[at] = history.contact_slip.z;
+  }
+  if (simulation_.law.bending) {
+    BendBlock& bend = pairs_.bends[p / kBlock];
+    bend.k_bend[at] = own.k_bend, bend.k_twist[at] = own.k_twist;
+    bend.turn_x[at] = history.turn.x, bend.turn_y[at] = history.turn.y, bend.turn_z[at] = history.turn.z;
+  }
+}
+
+void Stepper::store_pair(const Chunk& chunk, std::size_t p) {
+  PairHistory& history = simulation_.pairs[pair_of_[p]].history;
+  const std::size_t at = p % kBlock;
+  const PairBlock& block = pairs_.blocks[p / kBlock];
+  history.bond_slip = {block.slip_x[at], block.slip_y[at], block.slip_z[at]};
+  history.closing = block.closing[at];
+  if (const ContactBlock* contact = contact_of(chunk, p))
+    history.contact_slip = {contact->slip_x[at], contact->slip_y[at], contact->slip_z[at]};
+  if (simulation_.law.bending) {
+    const BendBlock& bend = pairs_.bends[p / kBlock];
+    history.turn = {bend.turn_x[at], bend.turn_y[at], bend.turn_z[at]};
+  }
+}
+
+/// A chunk adds to the sums of its own beads, and to sums of its own making for those of others.
+void Stepper::share_sums() {
+  std::uint32_t next = static_cast<std::uint32_t>(beads_.size);
+  for (std::size_t c = 0; c < chunks_.size(); ++c) {
+    std::map<std::uint32_t, std::uint32_t> sum_of;
+    const auto place = [&](std::uint32_t row) {
+      const std::size_t owner = row / kBeadsPerChunk;
+      if (owner == c) return row;
+      const auto [entry, is_new] = sum_of.try_emplace(row, next);
+      if (is_new) {
+        Chunk& target = chunks_[owner];
+        if (target.incoming.empty()) target.first_source = c;
+        target.incoming.push_back({next++, row});
+      }
+      return entry->second;
+    };
+    const std::uint32_t nowhere = next++;  // for the pairs that fill up
+    for (std::size_t p = chunks_[c].first_block * kBlock; p < chunks_[c].last_block * kBlock; ++p) {
+      const bool fills_up = pair_of_[p] < 0;
+      PairBlock& block = pairs_.blocks[p / kBlock];
+      const std::size_t at = p % kBlock;
+      block.sum_i[at] = kSumRow * (fills_up ? nowhere : place(block.i[at] / kBeadRow));
+      block.sum_j[at] = kSumRow * (fills_up ? nowhere : place(block.j[at] / kBeadRow));
+    }
+  }
+  beads_.sums.assign(kSumRow * static_cast<std::size_t>(next), 0.0);
+}
+
+void Stepper::find_beads_near_platens() {
+  for (auto& chunk : chunks_)
+    for (std::size_t row = chunk.first_bead; row < chunk.last_bead; ++row) {
+      const double z = beads_.listed_rows[4 * row + 2];
+      const double reach = beads_.rows[kBeadRow * row + 3] + simulation_.skin;
+      if (z - reach <= simulation_.bottom_listed_at || z + reach >= simulation_.top_listed_at)
+        chunk.near_platen.push_back(row);
+    }
+}
+
+BeadMotion Stepper::motion(std::size_t row) const {
+  const double* bead = &beads_.rows[kBeadRow * row];
+  return {get(bead), get(bead + 4), get(bead + 8), bead[3]};
+}
+
+void Stepper::store() {
+  auto& beads = simulation_.beads;
+  for (std::size_t row = 0; row < beads_.size; ++row) {
+    const std::size_t k = bead_of_[row];
+    const BeadMotion bead = motion(row);
+    beads.position[k] = bead.position;
+    beads.velocity[k] = bead.velocity;
+    beads.spin[k] = bead.spin;
+  }
+  for (const auto& chunk : chunks_)
+    for (std::size_t p = chunk.first_block * kBlock; p < chunk.last_block * kBlock; ++p)
+      if (pair_of_[p] >= 0) store_pair(chunk, p);
+}
+
+/// Shares for the threads: chunks that follow one another, with about the same number of pairs.
+void Stepper::share_chunks() {
+  const std::size_t shares =
+      thread_count() == 1 ? 1 : std::min(chunks_.size(), kSharesPerThread * thread_count());
+  const std::size_t blocks = pairs_.blocks.size();
+  shares_.assign(1, 0);
+  for (std::size_t c = 0; c < chunks_.size(); ++c)
+    if (chunks_[c].last_block * shares >= blocks * shares_.size() && shares_.size() < shares)
+      shares_.push_back(c + 1);
+  shares_.push_back(chunks_.size());
 }
 
 void Stepper::step() {
-  move_beads();
-  advance_pairs();
-  gather_forces();
-  collect_breaks();
-  ++simulation_.steps;
+  for_blocks(shares_.size() - 1, 1, [&](std::size_t share, std::size_t) { advance_share(share); });
+  for_blocks(shares_.size() - 1, 1, [&](std::size_t share, std::size_t) { move_waiting(share); });
+  add_up();
+  break_bonds();
+  advance_platens(simulation_);
+  if (!listing_due()) return;
+  store();
+  list_pairs(simulation_);
+  load();
 }
 
-void Stepper::move_beads() {
-  auto& beads = simulation_.beads;
-  const double dt = simulation_.dt;
-  for_blocks(beads.size(), kBeadBlock, [&](std::size_t first, std::size_t last) {
-    flush_denormals();
-    double farthest = 0.0;
-    for (std::size_t k = first; k < last; ++k) {
-      beads.position[k] += dt * beads.velocity[k];
-      farthest = std::max(farthest, (beads.position[k] - simulation_.listed_at[k]).squaredNorm());
-    }
-    bead_sums_[first / kBeadBlock].farthest_squared = farthest;
-  });
-  simulation_.bottom.z += dt * simulation_.bottom.velocity;
-  simulation_.top.z += dt * simulation_.top.velocity;
-  double farthest = 0.0;
-  for (const auto& sums : bead_sums_) farthest = std::max(farthest, sums.farthest_squared);
-  if (4.0 * farthest > simulation_.skin * simulation_.skin) {
-    list_pairs(simulation_);
-    index_slots();
+/// First pass. Beads that no other share has added to move at once, while they are in the cache.
+void Stepper::advance_share(std::size_t share) {
+  const FlushDenormals here;
+  const LawNumbers<double> law = numbers(simulation_.law, simulation_.dt);
+  for (std::size_t c = shares_[share]; c < shares_[share + 1]; ++c) {
+    Chunk& chunk = chunks_[c];
+    chunk.damped = chunk.slipped = chunk.bottom = chunk.top = 0.0;
+    chunk.breaking.clear();
+    advance_pairs(pairs_, beads_, chunk, law, parts(simulation_.law));
+    press_platens(chunk);
+    if (chunk.first_source >= shares_[share]) move_beads(beads_, chunk, simulation_.dt);
   }
 }
 
-void Stepper::advance_pairs() {
-  auto& pairs = simulation_.pairs;
-  const auto& beads = simulation_.beads;
-  for_blocks(pairs.size(), kPairBlock, [&](std::size_t first, std::size_t last) {
-    flush_denormals();
-    BlockSums sums;
-    for (std::size_t p = first; p < last; ++p) {
-      Pair& pair = pairs[p];
-      const int i = pair.i, j = pair.j;
-      const PairMotion motion = {beads.position[i] - beads.position[j],
-                                 beads.velocity[i] - beads.velocity[j],
-                                 beads.spin[i],
-                                 beads.spin[j],
-                                 beads.radius[i],
-                                 beads.radius[j]};
-      const PairForce& force = forces_[p] =
-          advance_pair(motion, pair.properties, simulation_.law, simulation_.dt, pair.history);
-      sums.damped += force.damped;
-      sums.slipped += force.slipped;
-      sums.any_break |= force.breaks;
-    }
-    pair_sums_[first / kPairBlock] = sums;
-  });
+/// Second pass: the other beads.
+void Stepper::move_waiting(std::size_t share) {
+  const FlushDenormals here;
+  for (std::size_t c = shares_[share]; c < shares_[share + 1]; ++c)
+    if (chunks_[c].first_source < shares_[share]) move_beads(beads_, chunks_[c], simulation_.dt);
 }
 
-/// Bead against platen: the same law as between beads, without a bond; the platen does not turn. Returns the
-/// force on the bead and adds to its torque.
-Vec3 Stepper::platen_contact(std::size_t k, Platen& platen, Vec3& torque, double& normal, double& damped,
-                             double& slipped) const {
-  const auto& beads = simulation_.beads;
-  const LawParameters& law = simulation_.law;
-  const double gap = platen.normal_sign * (beads.position[k].z() - platen.z) - beads.radius[k];
-  if (gap > 0.0) {
-    platen.slip[k].setZero();
-    return Vec3::Zero();
+/// Breaks are taken when all beads have moved, in the order of the table.
+void Stepper::break_bonds() {
+  for (const auto& chunk : chunks_)
+    for (const std::uint32_t p : chunk.breaking) {
+      Pair& pair = simulation_.pairs[pair_of_[p]];
+      for (int bead : {pair.i, pair.j}) simulation_.beads.position[bead] = motion(row_of_[bead]).position;
+      store_pair(chunk, p);
+      break_bond(simulation_, pair);
+      load_pair(chunk, p);
+    }
+}
+
+void Stepper::press_platens(Chunk& chunk) {
+  for (const std::size_t row : chunk.near_platen) {
+    const BeadMotion bead = motion(row);
+    const std::size_t k = bead_of_[row];
+    const PlatenForce below = touch_platen(simulation_.bottom, k, bead, simulation_.law, simulation_.dt);
+    const PlatenForce above = touch_platen(simulation_.top, k, bead, simulation_.law, simulation_.dt);
+    double* sums = &beads_.sums[kSumRow * row];
+    put(sums, get(sums) + below.force + above.force);
+    put(sums + 4, get(sums + 4) + below.torque + above.torque);
+    chunk.bottom += below.normal;
+    chunk.top += above.normal;
+    chunk.damped += below.damped + above.damped;
+    chunk.slipped += below.slipped + above.slipped;
   }
-  const Vec3 n(0.0, 0.0, platen.normal_sign);
-  const double arm = beads.radius[k] + 0.5 * gap;
-  const Vec3 velocity = beads.velocity[k] - Vec3(0.0, 0.0, platen.velocity);
-  const Vec3 surface = velocity - arm * beads.spin[k].cross(n);
-  const double closing = velocity.dot(n), glass = contact_force(gap, 0.0, law.k_glass);
-  Vec3& slip = platen.slip[k];
-  slip += (surface - surface.dot(n) * n) * simulation_.dt;
-  slipped += limit_slip(slip, law.kt_glass, law.platen_friction * glass);
-  const Vec3 tangential = -law.kt_glass * slip;
-  damped += law.damping * closing * closing * simulation_.dt;
-  normal = glass - law.damping * closing;
-  torque -= arm * n.cross(tangential);
-  return normal * n + tangential;
 }
 
-void Stepper::gather_forces() {
-  auto& beads = simulation_.beads;
-  const double dt = simulation_.dt;
-  for_blocks(beads.size(), kBeadBlock, [&](std::size_t first, std::size_t last) {
-    flush_denormals();
-    BlockSums sums;
-    for (std::size_t k = first; k < last; ++k) {
-      Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-      for (int s = first_slot_[k]; s < first_slot_[k + 1]; ++s) {
-        const PairForce& pair = forces_[slots_[s].pair];
-        force += slots_[s].sign * pair.force;
-        torque -= (beads.radius[k] + pair.half_gap) * pair.couple;
-      }
-      double bottom = 0.0, top = 0.0;
-      force += platen_contact(k, simulation_.bottom, torque, bottom, sums.damped, sums.slipped);
-      force += platen_contact(k, simulation_.top, torque, top, sums.damped, sums.slipped);
-      sums.bottom += bottom;
-      sums.top += top;
-      beads.velocity[k] += dt / beads.mass[k] * force;
-      beads.spin[k] += dt / beads.inertia[k] * torque;
-    }
-    bead_sums_[first / kBeadBlock] = sums;
-  });
+void Stepper::add_up() {
   simulation_.bottom.force = simulation_.top.force = 0.0;
-  for (const auto& sums : bead_sums_) {
-    simulation_.bottom.force += sums.bottom;
-    simulation_.top.force += sums.top;
-    simulation_.work.damped += sums.damped;
-    simulation_.work.slipped += sums.slipped;
+  for (const auto& chunk : chunks_) {
+    simulation_.bottom.force += chunk.bottom;
+    simulation_.top.force += chunk.top;
+    simulation_.work.damped += chunk.damped;
+    simulation_.work.slipped += chunk.slipped;
   }
-  for (const auto& sums : pair_sums_) {
-    simulation_.work.damped += sums.damped;
-    simulation_.work.slipped += sums.slipped;
-  }
-  simulation_.work.platen += dt * (simulation_.bottom.force * simulation_.bottom.velocity -
-                                   simulation_.top.force * simulation_.top.velocity);
 }
 
-/// Breaks are taken after the force pass, in order of pairs.
-void Stepper::collect_breaks() {
-  const auto& beads = simulation_.beads;
-  for (std::size_t block = 0; block < pair_sums_.size(); ++block) {
-    if (!pair_sums_[block].any_break) continue;
-    const std::size_t last = std::min(simulation_.pairs.size(), (block + 1) * kPairBlock);
-    for (std::size_t p = block * kPairBlock; p < last; ++p) {
-      if (!forces_[p].breaks) continue;
-      Pair& pair = simulation_.pairs[p];
-      const Vec3 apart = beads.position[pair.i] - beads.position[pair.j];
-      const double gap = apart.norm() - beads.radius[pair.i] - beads.radius[pair.j];
-      BreakEvent event;
-      event.strain = simulation_.strain();
-      event.i = pair.i;
-      event.j = pair.j;
-      event.place = 0.5 * (beads.position[pair.i] + beads.position[pair.j]);
-      event.stretch = gap - pair.properties.rest;
-      event.shear = pair.history.bond_slip.norm();
-      event.energy = break_bond(gap, simulation_.law, pair.properties, pair.history);
-      simulation_.work.broken += event.energy;
-      simulation_.bonds[pair.bond].broken = true;
-      pair.bond = -1;
-      simulation_.events.push_back(event);
-    }
-  }
+bool Stepper::listing_due() const {
+  float farthest[3] = {0.0F, 0.0F, 0.0F};
+  for (const auto& chunk : chunks_)
+    for (int axis = 0; axis < 3; ++axis) farthest[axis] = std::max(farthest[axis], chunk.farthest[axis]);
+  const double bead = std::hypot(static_cast<double>(farthest[0]), farthest[1], farthest[2]);
+  const double platen = std::max(std::fabs(simulation_.bottom.z - simulation_.bottom_listed_at),
+                                 std::fabs(simulation_.top.z - simulation_.top_listed_at));
+  return 2.0 * std::max(bead, platen) > simulation_.skin;
 }
 
 }  // namespace pendular

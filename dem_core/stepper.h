@@ -3,43 +3,55 @@
 #include <vector>
 
 #include "dem_core/simulation.h"
+#include "dem_core/step_tables.h"
 
 namespace pendular {
 
-/// Advances a simulation step by step: leapfrog, two passes and no atomics. Each pair writes its force into
-/// its own slot; each bead then gathers its slots in fixed order, so that sums do not depend on the thread
-/// count. Holds only what can be made anew from the simulation: building one anew changes no result.
+/// Advances a simulation step by step, fast: vector kernels over tables of pairs and beads, which are kept in
+/// the order of their place in space. Chunks of neighbouring beads and their pairs are what threads share: in
+/// a first pass a chunk advances its pairs and adds their forces to sums of its own, in a second it collects
+/// the sums of its beads and moves them. No atomics, and the same sums for any number of threads.
+///
+/// The simulation's platens, sums, events and step count are always true; its beads and pairs are after
+/// store(). The tables are made anew from the simulation alone, so building a stepper anew changes no result.
 class Stepper {
  public:
   explicit Stepper(Simulation& simulation);
 
-  /// One time step. Pairs are listed anew where a bead has moved half a skin.
+  /// One time step. Pairs are listed anew where a bead or platen may have moved half a skin.
   void step();
 
- private:
-  void index_slots();
-  void move_beads();
-  void advance_pairs();
-  void gather_forces();
-  void collect_breaks();
-  Vec3 platen_contact(std::size_t bead, Platen& platen, Vec3& torque, double& normal, double& damped,
-                      double& slipped) const;
+  /// Writes beads and pairs back to the simulation.
+  void store();
 
-  /// A bead's view of one of its pairs.
-  struct Slot {
-    int pair;
-    double sign;  ///< +1: the bead is i of the pair
-  };
-  struct BlockSums {
-    double damped = 0.0, slipped = 0.0, bottom = 0.0, top = 0.0, farthest_squared = 0.0;
-    bool any_break = false;
-  };
+ private:
+  void load();
+  void order_beads();
+  void load_beads();
+  void cut_chunks();
+  void load_pairs();
+  void load_pair(const Chunk& chunk, std::size_t at);
+  void share_sums();
+  void find_beads_near_platens();
+  void store_pair(const Chunk& chunk, std::size_t at);
+  ContactBlock* contact_of(const Chunk& chunk, std::size_t at);
+  void share_chunks();
+  void advance_share(std::size_t share);
+  void move_waiting(std::size_t share);
+  void press_platens(Chunk& chunk);
+  void break_bonds();
+  void add_up();
+  BeadMotion motion(std::size_t row) const;
+  bool listing_due() const;
 
   Simulation& simulation_;
-  std::vector<PairForce> forces_;
-  std::vector<int> first_slot_;
-  std::vector<Slot> slots_;
-  std::vector<BlockSums> pair_sums_, bead_sums_;
+  std::vector<std::size_t> bead_of_;   ///< row of the bead table → bead
+  std::vector<std::int32_t> row_of_;   ///< bead → row
+  std::vector<std::int64_t> pair_of_;  ///< place in the pair table → pair, or −1: fills up
+  std::vector<std::size_t> shares_;    ///< first chunk of each share, and one past the last
+  PairTable pairs_;
+  BeadTable beads_;
+  std::vector<Chunk> chunks_;
 };
 
 }  // namespace pendular

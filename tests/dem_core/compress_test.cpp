@@ -11,61 +11,17 @@
 #include "dem_core/run_folder.h"
 #include "dem_core/stepper.h"
 #include "micromechanics/stiffness.h"
-#include "packing/bridges.h"
 #include "packing/polydata.h"
 #include "scratch.h"
+#include "specimens.h"
 
 namespace pendular {
 namespace {
 
+using test::columns;
+using test::disordered;
+using test::sample_a;
 using test::ScratchFolder;
-
-Sample sample_a() {
-  Sample sample;
-  sample.bridges.normal_stiffness = 5760.0;
-  sample.bridges.tangential_stiffness = 325.0;
-  sample.beads.diameters = "measured";
-  return sample;
-}
-
-/// Columns of beads on a square grid with equal gaps, so that a column is a chain of springs.
-Packing columns(int side, int tall, double gap_over_d) {
-  const double d = 200.9e-6, pitch = d * (1.0 + gap_over_d);
-  Packing packing;
-  for (int k = 0; k < tall; ++k)
-    for (int i = 0; i < side; ++i)
-      for (int j = 0; j < side; ++j) {
-        Bead bead;
-        bead.id = static_cast<std::int64_t>(packing.beads.size()) + 1;
-        bead.centre = pitch * Vec3(i, j, k);
-        bead.diameter = d;
-        packing.beads.push_back(bead);
-      }
-  packing.bridges = candidate_bridges(packing.beads, 0.064 * d);
-  packing.specimen.diameter = 1.13 * side * pitch;
-  packing.specimen.height = tall * pitch;
-  return packing;
-}
-
-/// A small disordered specimen: face-centred cubic, with each bead a little smaller at random.
-Packing disordered(int side, int tall) {
-  const double d = 200.9e-6, a = std::sqrt(2.0) * d;
-  Packing packing;
-  const Vec3 basis[4] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
-  for (int k = 0; k < tall; ++k)
-    for (int i = 0; i < side; ++i)
-      for (int j = 0; j < side; ++j)
-        for (const auto& offset : basis) {
-          Bead bead;
-          const auto n = static_cast<std::uint64_t>(packing.beads.size());
-          bead.id = static_cast<std::int64_t>(n) + 1;
-          bead.centre = a * (Vec3(i, j, k) + offset);
-          bead.diameter = d * (1.0 - 0.03 * random_uniform(11, n));
-          packing.beads.push_back(bead);
-        }
-  packing.bridges = candidate_bridges(packing.beads, 0.064 * d);
-  return packing;
-}
 
 TEST(Compress, ChainOfBondsHasTheStiffnessOfSpringsInSeries) {
   // Side by side 9 columns of 6 beads: per column two platen contacts (k_glass) and 5 bonds (kn) in series,
@@ -119,7 +75,7 @@ TEST(Compress, WorkOfThePlatenIsFoundAgain) {
   sample.compression.unload_at = {0.02};
   ScratchFolder folder;
   const CompressResult result = compress(disordered(4, 4), sample, folder / "run", {});
-  EXPECT_LT(std::fabs(result.result["work_balance"]["relative_error"].get<double>()), 5e-3);
+  EXPECT_LT(std::fabs(result.result["work_balance"]["relative_error"].get<double>()), 1e-3);
   EXPECT_GT(result.result["work_balance"]["slipped_j"].get<double>(), 0.0);
 }
 
@@ -149,6 +105,7 @@ TEST(Compress, FreeSpecimenKeepsItsMomenta) {
   const Vec3 p = momentum(), l = angular();
   Stepper stepper(simulation);
   for (int k = 0; k < 3000; ++k) stepper.step();
+  stepper.store();
   EXPECT_GT(simulation.events.size(), 0u) << "the test should break bonds";
   EXPECT_LT((momentum() - p).norm(), 1e-12 * scale);
   EXPECT_LT((angular() - l).norm(), 1e-11 * turning);
@@ -173,6 +130,7 @@ TEST(Compress, CheckpointHoldsEverything) {
   Simulation simulation = build_simulation(disordered(3, 3), sample_a());
   Stepper stepper(simulation);
   for (int k = 0; k < 2000; ++k) stepper.step();
+  stepper.store();
   RunState state;
   state.simulation = simulation;
   state.rows.resize(3);
@@ -185,6 +143,7 @@ TEST(Compress, CheckpointHoldsEverything) {
   EXPECT_EQ(again.frames_written, 2);
   Stepper resumed(again.simulation);
   for (int k = 0; k < 2000; ++k) stepper.step(), resumed.step();
+  stepper.store(), resumed.store();
   for (std::size_t k = 0; k < simulation.beads.size(); ++k) {
     ASSERT_EQ(simulation.beads.position[k], again.simulation.beads.position[k]);
     ASSERT_EQ(simulation.beads.spin[k], again.simulation.beads.spin[k]);

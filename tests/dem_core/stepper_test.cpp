@@ -1,0 +1,149 @@
+#include "dem_core/stepper.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "base/error.h"
+#include "dem_core/reference_step.h"
+#include "dem_core/step_kernels.h"
+#include "specimens.h"
+
+namespace pendular {
+namespace {
+
+using test::disordered;
+using test::sample_a;
+
+/// A specimen in violent motion: every bead with a random velocity and spin, pressed between its platens.
+Simulation violent(const Sample& sample, const Packing& packing, double k_bend = 0.0) {
+  Simulation simulation = build_simulation(packing, sample);
+  auto& beads = simulation.beads;
+  for (std::size_t k = 0; k < beads.size(); ++k) {
+    const auto id = static_cast<std::uint64_t>(packing.beads[k].id);
+    beads.velocity[k] = 20.0 * Vec3(random_normal(1, id), random_normal(2, id), random_normal(3, id));
+    beads.spin[k] = 1e5 * Vec3(random_normal(4, id), random_normal(5, id), random_normal(6, id));
+  }
+  for (auto& pair : simulation.pairs) {
+    if (pair.bond < 0) continue;
+    pair.properties.k_bend = 2.0 * k_bend;
+    pair.properties.k_twist = k_bend;
+  }
+  simulation.law.bending = k_bend > 0.0;
+  return simulation;
+}
+
+struct Law {
+  const char* name;
+  const char* springs;
+  bool bond_friction_limit;
+  double k_bend;
+};
+
+/// The kernels of one instruction set against the loop that anyone can read.
+class Kernel : public testing::TestWithParam<std::tuple<std::string, Law>> {
+  void TearDown() override { use_instruction_set(instruction_sets().front()); }
+};
+
+TEST_P(Kernel, AgreesWithTheReferenceLoop) {
+  const auto& [instruction_set, law] = GetParam();
+  use_instruction_set(instruction_set);
+  Sample sample = sample_a();
+  sample.contact.tangential_springs = law.springs;
+  sample.contact.bond_friction_limit = law.bond_friction_limit;
+  Simulation fast = violent(sample, disordered(4, 4), law.k_bend);
+  Simulation slow = fast;
+  Stepper stepper(fast);
+  for (int k = 0; k < 150; ++k) {
+    stepper.step();
+    reference_step(slow);
+    if (fast.bottom_listed_at != slow.bottom_listed_at) list_pairs(slow);
+  }
+  stepper.store();
+
+  const auto listed = [](const Simulation& s) {
+    std::vector<std::tuple<int, int>> broken;
+    for (const auto& event : s.events) broken.emplace_back(event.i, event.j);
+    std::sort(broken.begin(), broken.end());
+    return broken;
+  };
+  EXPECT_GT(slow.events.size(), 20u) << "the test should break bonds";
+  EXPECT_GT(slow.work.slipped, 0.0) << "the test should slide";
+  EXPECT_EQ(listed(fast), listed(slow));
+  const auto worst = [&](auto BeadStates::*field) {
+    double difference = 0.0, scale = 0.0;
+    for (std::size_t k = 0; k < slow.beads.size(); ++k) {
+      difference = std::max(difference, ((fast.beads.*field)[k] - (slow.beads.*field)[k]).norm());
+      scale = std::max(scale, (slow.beads.*field)[k].norm());
+    }
+    return difference / scale;
+  };
+  EXPECT_LT(worst(&BeadStates::position), 1e-12);
+  EXPECT_LT(worst(&BeadStates::velocity), 1e-9);
+  EXPECT_LT(worst(&BeadStates::spin), 1e-9);
+  EXPECT_NEAR(fast.work.slipped, slow.work.slipped, 1e-8 * slow.work.slipped);
+  // The kernels keep the last closing speed in single precision: it enters this sum alone.
+  EXPECT_NEAR(fast.work.damped, slow.work.damped, 1e-6 * slow.work.damped);
+  EXPECT_NEAR(energies(fast).elastic, energies(slow).elastic, 1e-8 * energies(slow).elastic);
+}
+
+INSTANTIATE_TEST_SUITE_P(EverySet, Kernel,
+                         testing::Combine(testing::ValuesIn(instruction_sets()),
+                                          testing::Values(Law{"TwoSprings", "two", false, 0.0},
+                                                          Law{"TwoSpringsCoulomb", "two", true, 0.0},
+                                                          Law{"OneSpring", "one", false, 0.0},
+                                                          Law{"OneSpringCoulomb", "one", true, 0.0},
+                                                          Law{"Bending", "two", false, 3e-6})),
+                         [](const auto& test) {
+                           return std::get<0>(test.param) + std::get<1>(test.param).name;
+                         });
+
+TEST(Stepper, RenumberedBeadsMoveTheSame) {
+  const Packing packing = disordered(4, 4);
+  Packing renumbered = packing;
+  std::reverse(renumbered.beads.begin(), renumbered.beads.end());
+  const int last = static_cast<int>(packing.beads.size()) - 1;
+  for (auto& bridge : renumbered.bridges) {
+    bridge.i = last - bridge.i, bridge.j = last - bridge.j;
+    if (bridge.i > bridge.j) std::swap(bridge.i, bridge.j);
+  }
+  Simulation one = violent(sample_a(), packing), other = violent(sample_a(), renumbered);
+  Stepper first(one), second(other);
+  for (int k = 0; k < 150; ++k) first.step(), second.step();
+  first.store(), second.store();
+  EXPECT_EQ(one.events.size(), other.events.size());
+  for (int k = 0; k <= last; ++k)
+    ASSERT_LT((one.beads.position[k] - other.beads.position[last - k]).norm(), 1e-14) << k;
+}
+
+TEST(Stepper, ATurnedSpecimenMovesTheSame) {
+  // Without platens no direction in space is special.
+  const Packing packing = disordered(4, 4);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vec3(1, 2, -0.5).normalized()).toRotationMatrix();
+  Simulation upright = violent(sample_a(), packing);
+  upright.bottom.z -= 1.0, upright.top.z += 1.0, upright.bottom.velocity = 0.0;
+  list_pairs(upright);
+  Simulation turned = upright;
+  auto& beads = turned.beads;
+  for (std::size_t k = 0; k < beads.size(); ++k) {
+    for (Vec3* v : {&beads.position[k], &beads.velocity[k], &beads.spin[k]}) *v = turn * *v;
+    turned.listed_at[k] = beads.position[k];
+  }
+  Stepper first(upright), second(turned);
+  for (int k = 0; k < 150; ++k) first.step(), second.step();
+  first.store(), second.store();
+  EXPECT_GT(upright.events.size(), 20u);
+  EXPECT_EQ(upright.events.size(), turned.events.size());
+  for (std::size_t k = 0; k < beads.size(); ++k)
+    ASSERT_LT((turn * upright.beads.position[k] - beads.position[k]).norm(), 1e-13) << k;
+}
+
+TEST(Stepper, UnknownInstructionSetIsRefused) {
+  EXPECT_THROW(use_instruction_set("MMX"), BadInput);
+}
+
+}  // namespace
+}  // namespace pendular
