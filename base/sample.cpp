@@ -49,6 +49,13 @@ const std::vector<NumberKey>& number_keys() {
        "volume fraction of a generated packing"},
       {"compression.speed", 1, 1e-9, 0.1, PENDULAR_AT(compression.speed), "platen speed over D √(k_glass/m)"},
       {"compression.speed_mm_s", mm_s, 1e-9, 1e6, PENDULAR_OPTIONAL(compression.speed_si), "platen speed"},
+      {"compression.stress_rate_pa_s", 1, tiny, inf, PENDULAR_OPTIONAL(compression.stress_rate),
+       "rate of the stress ramp where control is \"stress\"; the platen goes no faster than the speed"},
+      {"compression.max_stress_pa", 1, tiny, inf, PENDULAR_OPTIONAL(compression.max_stress),
+       "stress at which the run ends"},
+      {"compression.hold", 1, 0.0, 0.5, PENDULAR_AT(compression.hold),
+       "time of a hold: the strain that would be made in it at the speed"},
+      {"compression.hold_s", 1, 0.0, 1e6, PENDULAR_OPTIONAL(compression.hold_time), "time of a hold"},
       {"compression.max_strain", 1, 1e-6, 0.5, PENDULAR_AT(compression.max_strain),
        "strain at which the run ends"},
       {"compression.rows_per_strain", 1, 10.0, 1e7, PENDULAR_AT(compression.rows_per_strain),
@@ -93,6 +100,9 @@ const std::vector<WordKey>& word_keys() {
       {"contact.tangential_springs",
        {"one", "two"},
        [](Sample& s) -> std::string& { return s.contact.tangential_springs; }},
+      {"compression.control",
+       {"speed", "stress"},
+       [](Sample& s) -> std::string& { return s.compression.control; }},
   };
   return keys;
 }
@@ -101,7 +111,8 @@ std::vector<std::string> all_key_names() {
   std::vector<std::string> names;
   for (const auto& key : number_keys()) names.push_back(key.name);
   for (const auto& key : word_keys()) names.push_back(key.name);
-  names.insert(names.end(), {"contact.bond_friction_limit", "compression.unload_at", "specimen.shape"});
+  names.insert(names.end(), {"contact.bond_friction_limit", "compression.unload_at", "compression.hold_at",
+                             "specimen.shape"});
   return names;
 }
 

@@ -55,12 +55,18 @@ struct Sample {
   } specimen;
 
   struct Compression {
-    double speed = 1e-4;              ///< platen speed over D √(k_glass/m)
-    std::optional<double> speed_si;   ///< m/s; overrides `speed`
-    double max_strain = 0.10;         ///< engineering strain at which the run ends
-    std::vector<double> unload_at;    ///< strains at which the platen returns to zero stress once, rising
-    double rows_per_strain = 5000.0;  ///< rows of curve.csv per unit strain
-    double frames = 20.0;             ///< frames written, evenly in strain
+    double speed = 1e-4;                ///< platen speed over D √(k_glass/m)
+    std::optional<double> speed_si;     ///< m/s; overrides `speed`
+    std::string control = "speed";      ///< of the moving platen: "speed", or "stress": a ramp of stress
+    std::optional<double> stress_rate;  ///< of that ramp, Pa/s
+    std::optional<double> max_stress;   ///< stress at which the run ends, Pa
+    double max_strain = 0.10;           ///< engineering strain at which the run ends
+    std::vector<double> unload_at;      ///< strains at which the platen returns to zero stress once, rising
+    std::vector<double> hold_at;        ///< strains at which the platen rests for a time, rising
+    double hold = 1e-3;                 ///< that time: the strain that would be made in it at the speed
+    std::optional<double> hold_time;    ///< s; overrides `hold`
+    double rows_per_strain = 5000.0;    ///< rows of curve.csv per unit strain
+    double frames = 20.0;               ///< frames written, evenly in strain
   } compression;
 
   struct Phantom {

@@ -50,10 +50,9 @@ void read_word(Sample& sample, const WordKey& key, const Place& place) {
   key.field(sample) = *word;
 }
 
-void read_unload_at(Sample& sample, const Place& place) {
+void read_strains(std::vector<double>& strains, const Place& place) {
   const auto* array = place.node.as_array();
   if (!array) bad_input("{}: found {}, expected an array of strains", place.str(), type_name(place.node));
-  std::vector<double>& strains = sample.compression.unload_at;
   strains.clear();
   for (const auto& item : *array) {
     const double strain = number_at({place.file, place.name, item});
@@ -74,7 +73,8 @@ void read_key(Sample& sample, const Place& place) {
   }
   for (const auto& key : word_keys())
     if (key.name == place.name) return read_word(sample, key, place);
-  if (place.name == "compression.unload_at") return read_unload_at(sample, place);
+  if (place.name == "compression.unload_at") return read_strains(sample.compression.unload_at, place);
+  if (place.name == "compression.hold_at") return read_strains(sample.compression.hold_at, place);
   if (place.name == "contact.bond_friction_limit") {
     if (!place.node.is_boolean())
       bad_input("{}: found {}, expected true or false", place.str(), type_name(place.node));
@@ -101,6 +101,15 @@ void check_together(const Sample& sample, const std::string& file) {
         "{}: bridges.stiffness = \"per_bridge\" and bridges.normal_stiffness_n_per_m: expected one of them, "
         "because a given stiffness is the same for all bonds",
         file);
+  const auto& compression = sample.compression;
+  if ((compression.control == "stress") != compression.stress_rate.has_value())
+    bad_input(
+        "{}: compression.control = \"{}\" {} compression.stress_rate_pa_s: expected control = \"stress\" and "
+        "the rate of its ramp, or neither",
+        file, compression.control, compression.stress_rate ? "with" : "without");
+  if (compression.control == "stress" && !(compression.unload_at.empty() && compression.hold_at.empty()))
+    bad_input("{}: compression.unload_at and compression.hold_at: expected only where control is \"speed\"",
+              file);
   if (sample.phantom.bits != 8.0 && sample.phantom.bits != 16.0)
     bad_input("{}: phantom.bits = {}: expected 8 or 16", file, sample.phantom.bits);
   if (sample.phantom.air_grey == sample.phantom.glass_grey)

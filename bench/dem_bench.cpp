@@ -1,13 +1,19 @@
-// Particle-steps per second of the compression of sample A's specimen, on one thread and on two.
+// Particle-steps per second of the compression of sample A's specimen: one thread and two, every instruction
+// set that this machine has, and a specimen ten times larger.
 //
 //   cmake --preset bench && cmake --build --preset bench && build-bench/bench/dem_bench
 //
-// The ratio of the two lines is the figure to quote; absolute rates belong to a machine.
+// Ratios of lines are the figures to quote; absolute rates belong to a machine.
 
 #include <benchmark/benchmark.h>
 
+#include <cmath>
+#include <map>
+#include <string>
+
 #include "base/parallel.h"
 #include "dem_core/compress.h"
+#include "dem_core/step_kernels.h"
 #include "dem_core/stepper.h"
 #include "packing/bridges.h"
 #include "packing/generate.h"
@@ -15,38 +21,60 @@
 namespace pendular {
 namespace {
 
-Simulation loaded_specimen() {
+/// Sample A's cylinder, `times` as large in volume, compressed until all beads carry load.
+const Simulation& loaded_specimen(int times) {
+  static std::map<int, Simulation> made;
+  if (const auto found = made.find(times); found != made.end()) return found->second;
   Sample sample;
   sample.bridges.normal_stiffness = 5760.0;
   sample.bridges.tangential_stiffness = 325.0;
+  sample.contact.bond_friction_limit = false;
+  sample.specimen.diameter *= std::cbrt(times);
+  sample.specimen.height *= std::cbrt(times);
   Packing packing = generate_packing(sample, 1);
   packing.bridges = candidate_bridges(packing.beads, sample.bridges.cutoff * sample.beads.diameter);
   Simulation simulation = build_simulation(realise(packing, sample, 1), sample);
   Stepper stepper(simulation);
-  while (simulation.strain() < 5e-3) stepper.step();  // all beads carry load
-  return simulation;
+  while (simulation.strain() < 5e-3) stepper.step();
+  stepper.store();
+  return made.emplace(times, std::move(simulation)).first->second;
 }
 
-void compression_steps(benchmark::State& state) {
-  static const Simulation loaded = loaded_specimen();
-  set_threads(static_cast<int>(state.range(0)));
+void measure(benchmark::State& state, int threads, int times, const std::string& set) {
+  const Simulation& loaded = loaded_specimen(times);
+  use_instruction_set(set);
+  set_threads(threads);
   Simulation simulation = loaded;
   Stepper stepper(simulation);
   for (auto _ : state) stepper.step();
   state.counters["particle_steps"] = benchmark::Counter(
       static_cast<double>(state.iterations()) * static_cast<double>(simulation.beads.size()),
       benchmark::Counter::kIsRate);
+  state.counters["beads"] = static_cast<double>(simulation.beads.size());
+  state.counters["pairs"] = static_cast<double>(simulation.pairs.size());
 }
 
-BENCHMARK(compression_steps)
-    ->Arg(1)
-    ->Arg(2)
-    ->ArgName("threads")
-    ->UseRealTime()
-    ->Unit(benchmark::kMicrosecond)
-    ->Repetitions(3);
+void add(const std::string& name, int threads, int times, const std::string& set) {
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [=](benchmark::State& state) { measure(state, threads, times, set); })
+      ->UseRealTime()
+      ->Unit(benchmark::kMicrosecond)
+      ->MinTime(0.3)
+      ->Repetitions(5)
+      ->ReportAggregatesOnly();
+}
 
 }  // namespace
 }  // namespace pendular
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  using namespace pendular;
+  const auto sets = instruction_sets();
+  for (const auto& set : sets) add("sample_A/threads:1/" + set, 1, 1, set);
+  add("sample_A/threads:2/" + sets.front(), 2, 1, sets.front());
+  for (int threads : {1, 2})
+    add("ten_times_sample_A/threads:" + std::to_string(threads) + "/" + sets.front(), threads, 10,
+        sets.front());
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}

@@ -4,11 +4,13 @@
 #include <type_traits>
 
 #include "base/error.h"
+#include "base/progress.h"
 
 namespace pendular {
 namespace {
 
-constexpr char kMagic[] = "pendular checkpoint 2\n";
+constexpr char kNewest[] = "checkpoint", kPrevious[] = "checkpoint.previous", kNext[] = "checkpoint.next";
+constexpr char kMagic[] = "pendular checkpoint 3\n";
 
 struct Writer {
   std::string bytes;
@@ -111,13 +113,18 @@ void visit(Archive& a, Simulation& s) {
 template <typename Archive>
 void visit(Archive& a, CurveRow& r) {
   fields(a, r.strain, r.stress, r.stress_bottom, r.broken_bonds, r.kinetic, r.elastic, r.work, r.damped,
-         r.slipped, r.released, r.coordination);
+         r.slipped, r.released, r.coordination, r.lateral_strain, r.inertial_number, r.unbalanced_force);
+}
+
+template <typename Archive>
+void visit(Archive& a, PlatenProgress& p) {
+  fields(a, p.unloadings_done, p.holds_done, p.unloading, p.holding, p.force_at_reversal, p.hold_until);
 }
 
 template <typename Archive>
 void visit(Archive& a, RunState& s) {
-  fields(a, s.simulation, s.rows, s.frames_written, s.unloadings_done, s.unloading, s.force_at_reversal,
-         s.finished, s.open_row.strain, s.open_row.top, s.open_row.bottom, s.open_row.steps);
+  fields(a, s.simulation, s.rows, s.frames_written, s.platen, s.finished, s.open_row.strain, s.open_row.top,
+         s.open_row.bottom, s.open_row.steps);
 }
 
 }  // namespace
@@ -148,6 +155,38 @@ RunState read_checkpoint(const fs::path& path, const std::string& identity) {
   Reader reader{bytes, payload_at};
   visit(reader, state);
   return state;
+}
+
+void keep_checkpoint(const fs::path& folder, const RunState& state, const std::string& identity) {
+  const fs::path newest = folder / kNewest, next = folder / kNext;
+  write_checkpoint(next, state, identity);
+  if (fs::exists(newest)) fs::rename(newest, folder / kPrevious);
+  fs::rename(next, newest);
+}
+
+std::optional<RunState> kept_checkpoint(const fs::path& folder, const std::string& identity) {
+  const fs::path newest = folder / kNewest, previous = folder / kPrevious;
+  if (!fs::exists(newest) && !fs::exists(previous)) return std::nullopt;
+  std::string wrong;
+  try {
+    return read_checkpoint(newest, identity);
+  } catch (const BadInput& error) {
+    wrong = error.what();
+  }
+  if (!fs::exists(previous)) throw BadInput(wrong);
+  RunState state;
+  try {
+    state = read_checkpoint(previous, identity);
+  } catch (const BadInput& error) {
+    throw BadInput(fmt::format("{}; nor can the one before be used: {}", wrong, error.what()));
+  }
+  warn(fmt::format("{}; going on from the one before, {}", wrong, previous.string()));
+  fs::remove(newest);  // or the next one would push the good one out
+  return state;
+}
+
+void remove_checkpoints(const fs::path& folder) {
+  for (const char* name : {kNewest, kPrevious, kNext}) fs::remove(folder / name);
 }
 
 }  // namespace pendular

@@ -2,12 +2,18 @@
 
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "dem_core/checkpoint.h"
+#include "dem_core/forces.h"
+#include "dem_core/lateral_strain.h"
+#include "dem_core/platen_program.h"
+#include "dem_core/quasi_static.h"
 #include "dem_core/run_folder.h"
+#include "dem_core/specimen_check.h"
 #include "dem_core/stepper.h"
 #include "packing/bridges.h"
 #include "packing/diameters.h"
@@ -28,32 +34,50 @@ std::vector<std::int64_t> bead_ids(const Packing& packing) {
   return ids;
 }
 
+/// Mean diameter, m.
+double mean_diameter(const BeadStates& beads) {
+  return 2.0 * std::accumulate(beads.radius.begin(), beads.radius.end(), 0.0) /
+         static_cast<double>(beads.size());
+}
+
 /// One compression test from its first to its last step.
 class Test {
  public:
   Test(RunState& state, const Sample& sample, const fs::path& folder, std::vector<std::int64_t> ids)
-      : state_(state), sample_(sample), folder_(folder), ids_(std::move(ids)), stepper_(state.simulation) {
+      : state_(state),
+        sample_(sample),
+        folder_(folder),
+        ids_(std::move(ids)),
+        program_(state.simulation, sample),
+        stepper_(state.simulation) {
     const Simulation& s = state_.simulation;
-    const double row_time = s.initial_height / (sample.compression.rows_per_strain * platen_speed(sample));
+    const double row_time = s.initial_height / (sample.compression.rows_per_strain * program_.speed());
     steps_per_row_ = std::max(1, static_cast<int>(std::lround(row_time / s.dt)));
   }
 
   /// Makes the simulation true, for a checkpoint.
   void store() { stepper_.store(); }
 
-  /// Strain, as a share of the way, for progress.
-  double done() const { return state_.simulation.strain(); }
+  /// Share of the way, for progress.
+  double done() const { return program_.done(state_.simulation, last_stress()); }
+
+  double last_stress() const { return state_.rows.empty() ? 0.0 : state_.rows.back().stress; }
+
+  /// Wall time spent on frames, s.
+  double output_seconds() const { return output_seconds_; }
 
   void step() {
+    Simulation& s = state_.simulation;
     write_due_frames();
+    program_.drive(s, state_.platen);
     stepper_.step();
+    require_finite();
     auto& open = state_.open_row;
-    open.strain += state_.simulation.strain();
-    open.top += state_.simulation.top.force;
-    open.bottom += state_.simulation.bottom.force;
+    open.strain += s.strain();
+    open.top += s.top.force;
+    open.bottom += s.bottom.force;
     if (++open.steps == steps_per_row_) close_row();
-    turn_platen();
-    if (state_.simulation.strain() >= sample_.compression.max_strain) finish();
+    if (program_.ended(s, state_.platen, last_stress())) finish();
   }
 
  private:
@@ -76,8 +100,22 @@ class Test {
     row.released = s.work.broken;
     row.coordination =
         2.0 * static_cast<double>(s.bonds.size() - s.events.size()) / static_cast<double>(s.beads.size());
+    row.lateral_strain = lateral_strain(s);
+    row.inertial_number = inertial_number(s.bottom.velocity / s.initial_height, mean_diameter(s.beads),
+                                          sample_.beads.density, row.stress);
+    row.unbalanced_force = unbalanced_force(s, forces(s));
     state_.rows.push_back(row);
     open = {};
+  }
+
+  /// What is not a number anywhere in the specimen is not one in these sums either.
+  void require_finite() const {
+    const Simulation& s = state_.simulation;
+    if (std::isfinite(s.work.damped + s.work.slipped + s.bottom.force + s.top.force)) return;
+    throw ComputationFailed(
+        fmt::format("compress: motion diverged at strain {:.4f}: found a force that is not a number; try a "
+                    "smaller contact.time_step_fraction or contact.damping_fraction",
+                    s.strain()));
   }
 
   /// Motion that diverges makes energy: far more than the platen brought in, or than the specimen would have
@@ -86,7 +124,7 @@ class Test {
     const Simulation& s = state_.simulation;
     double mass = 0.0;
     for (double m : s.beads.mass) mass += m;
-    const double brought = std::fabs(s.work.platen) + mass * s.bottom.velocity * s.bottom.velocity;
+    const double brought = std::fabs(s.work.platen) + mass * program_.speed() * program_.speed();
     if (now.kinetic + now.elastic <= 10.0 * brought) return;
     throw ComputationFailed(
         fmt::format("compress: motion diverged at strain {:.4f}: found {:.3g} J in the specimen, "
@@ -95,35 +133,18 @@ class Test {
                     s.strain(), now.kinetic + now.elastic, brought));
   }
 
-  /// Unloading: the platen goes back at the strains asked for until the specimen carries hardly any load.
-  void turn_platen() {
-    Simulation& s = state_.simulation;
-    const auto& turns = sample_.compression.unload_at;
-    const double speed = std::fabs(s.bottom.velocity);
-    if (state_.unloading) {
-      if (s.top.force > 0.01 * state_.force_at_reversal) return;
-      state_.unloading = false;
-      ++state_.unloadings_done;
-      s.bottom.velocity = speed;
-    } else if (state_.unloadings_done < static_cast<int>(turns.size()) &&
-               s.strain() >= turns[state_.unloadings_done]) {
-      state_.unloading = true;
-      state_.force_at_reversal = s.top.force;
-      s.bottom.velocity = -speed;
-    }
-  }
-
   void write_due_frames() {
     const double interval = sample_.compression.max_strain / sample_.compression.frames;
     if (state_.simulation.strain() >= interval * state_.frames_written) write_next_frame();
   }
 
   void write_next_frame() {
+    const auto start = Clock::now();
     stepper_.store();
-    const double stress = state_.rows.empty() ? 0.0 : state_.rows.back().stress;
     write_frame(folder_ / "frames" / fmt::format("frame_{:04d}.vtp", state_.frames_written),
-                state_.simulation, ids_, stress);
+                state_.simulation, ids_, last_stress());
     ++state_.frames_written;
+    output_seconds_ += seconds_since(start);
   }
 
   void finish() {
@@ -136,49 +157,88 @@ class Test {
   const Sample& sample_;
   fs::path folder_;
   std::vector<std::int64_t> ids_;
+  PlatenProgram program_;
   Stepper stepper_;
   int steps_per_row_ = 1;
+  double output_seconds_ = 0.0;
 };
 
-std::string progress_note(const RunState& state) {
-  return fmt::format("strain {:.2f} %, stress {:.3f} MPa, {} broken", 100.0 * state.simulation.strain(),
-                     state.rows.empty() ? 0.0 : 1e-6 * state.rows.back().stress,
-                     state.simulation.events.size());
+/// What this run of the program did.
+struct Performance {
+  double wall_seconds = 0.0;
+  double output_seconds = 0.0;  ///< of these, on frames and checkpoints
+  double particle_steps = 0.0;
+  double rate() const { return wall_seconds > 0.0 ? particle_steps / wall_seconds : 0.0; }
+};
+
+std::string progress_note(const RunState& state, double stress, double rate) {
+  return fmt::format("strain {:.2f} %, stress {:.3f} MPa, {} broken, {:.3g} M particle-steps/s",
+                     100.0 * state.simulation.strain(), 1e-6 * stress, state.simulation.events.size(),
+                     1e-6 * rate);
 }
 
-void run(RunState& state, const Sample& sample, const fs::path& folder, std::vector<std::int64_t> ids,
-         const std::string& identity, double checkpoint_every) {
+Performance run(RunState& state, const Sample& sample, const fs::path& folder, std::vector<std::int64_t> ids,
+                const std::string& identity, double checkpoint_every) {
+  const auto start = Clock::now();
+  const std::int64_t first_step = state.simulation.steps;
   Test test(state, sample, folder, std::move(ids));
-  Progress progress("compress", sample.compression.max_strain);
-  auto last_checkpoint = Clock::now();
+  Progress progress("compress", 1.0);
+  double checkpoint_seconds = 0.0;
+  const auto so_far = [&] {
+    const double steps = static_cast<double>(state.simulation.steps - first_step);
+    return Performance{seconds_since(start), test.output_seconds() + checkpoint_seconds,
+                       steps * static_cast<double>(state.simulation.beads.size())};
+  };
+  auto last_checkpoint = start;
+  const auto keep = [&] {
+    last_checkpoint = Clock::now();
+    test.store();
+    keep_checkpoint(folder, state, identity);
+    checkpoint_seconds += seconds_since(last_checkpoint);
+  };
   while (!state.finished) {
     test.step();
     if (interrupted()) {
-      test.store();
-      write_checkpoint(folder / "checkpoint", state, identity);
-      throw Interrupted(fmt::format(
-          "interrupted at strain {:.4f}; continue with the same command and --resume", test.done()));
+      keep();
+      throw Interrupted(
+          fmt::format("interrupted at strain {:.4f}; continue with the same command and --resume",
+                      state.simulation.strain()));
     }
     if (state.open_row.steps != 0) continue;
-    progress.update(test.done(), progress_note(state));
-    if (seconds_since(last_checkpoint) < checkpoint_every) continue;
-    test.store();
-    write_checkpoint(folder / "checkpoint", state, identity);
-    last_checkpoint = Clock::now();
+    progress.update(test.done(), progress_note(state, test.last_stress(), so_far().rate()));
+    if (!state.finished && seconds_since(last_checkpoint) >= checkpoint_every) keep();
   }
-  test.store();
-  write_checkpoint(folder / "checkpoint", state, identity);
+  keep();
+  return so_far();
 }
 
 /// What an earlier run in this folder has left must not pass for this one's.
 void remove_earlier_run(const fs::path& folder) {
-  for (const char* name : {"curve.csv", "events.csv", "result.json", "checkpoint"}) fs::remove(folder / name);
+  for (const char* name : {"curve.csv", "events.csv", "avalanches.csv", "result.json"})
+    fs::remove(folder / name);
+  remove_checkpoints(folder);
   for (const auto& entry : fs::directory_iterator(folder / "frames"))
     if (entry.path().filename().string().starts_with("frame_")) fs::remove(entry.path());
 }
 
 std::string identity_of(const Provenance& provenance) {
   return sha256(to_json(provenance).dump());
+}
+
+AvalancheWindow window_of(const Simulation& simulation, const Sample& sample) {
+  const double kn = simulation.law.k_glass / sample.contact.stiffness_ratio;
+  return avalanche_window(simulation, kn, platen_speed(sample) / simulation.initial_height);
+}
+
+void warn_unless_quasi_static(const std::vector<CurveRow>& rows) {
+  const auto worst = quasi_static(rows);
+  if (!worst || worst->holds()) return;
+  warn(
+      fmt::format("the run is not quasi-static where its curve is linear: found inertial number {:.2g} and "
+                  "unbalanced force {:.2g}, expected at most {:.2g} and {:.2g}; try a smaller "
+                  "compression.speed",
+                  worst->inertial_number, worst->unbalanced_force, kQuasiStaticInertialNumber,
+                  kQuasiStaticUnbalancedForce));
 }
 
 }  // namespace
@@ -201,34 +261,37 @@ Packing realise(const Packing& packing, const Sample& sample, std::uint64_t seed
 CompressResult compress(const Packing& packing, const Sample& sample, const fs::path& folder,
                         const CompressOptions& options) {
   const std::string identity = identity_of(options.provenance);
-  const fs::path checkpoint = folder / "checkpoint";
+  auto kept = options.resume ? kept_checkpoint(folder, identity) : std::nullopt;
   RunState state;
-  const bool resumed = options.resume && fs::exists(checkpoint);
-  if (resumed)
-    state = read_checkpoint(checkpoint, identity);
-  else
+  if (kept) {
+    state = std::move(*kept);
+  } else {
     state.simulation = build_simulation(packing, sample);
+    check_specimen(packing, state.simulation, sample.compression.max_strain);
+  }
   make_folder(folder / "frames");
-  if (!resumed) remove_earlier_run(folder);
+  if (!kept) remove_earlier_run(folder);
   const auto ids = bead_ids(packing);
-  const std::int64_t first_step = state.simulation.steps;
-  const auto start = Clock::now();
-  run(state, sample, folder, ids, identity, options.checkpoint_every);
-  const double wall = seconds_since(start);
+  const Performance performance = run(state, sample, folder, ids, identity, options.checkpoint_every);
+  warn_unless_quasi_static(state.rows);
 
   CompressResult result;
   result.rows = state.rows;
-  result.result = result_json(state, sample.beads.diameter, options.provenance);
-  const double particle_steps = static_cast<double>(state.simulation.steps - first_step) *
-                                static_cast<double>(state.simulation.beads.size());
+  result.result = result_json(state, sample, options.provenance);
+  const auto found = avalanches(state.simulation.events, window_of(state.simulation, sample));
+  result.result["avalanches"] = found.size();
   const Coordination interior = coordination(packing.beads, packing.bridges);
   result.result["coordination"] = {{"bridges_per_interior_bead", interior.mean},
                                    {"standard_error", interior.standard_error},
                                    {"interior_beads", interior.beads}};
-  result.result["performance"] = {{"particle_steps_per_second", wall > 0.0 ? particle_steps / wall : 0.0},
-                                  {"wall_seconds", wall}};
+  result.result["performance"] = {
+      {"particle_steps_per_second", performance.rate()},
+      {"wall_seconds", performance.wall_seconds},
+      {"output_share",
+       performance.wall_seconds > 0.0 ? performance.output_seconds / performance.wall_seconds : 0.0}};
   write_curve(folder / "curve.csv", state.rows, options.provenance);
   write_events(folder / "events.csv", state.simulation, ids, options.provenance);
+  write_avalanches(folder / "avalanches.csv", found, options.provenance);
   write_text(folder / "result.json", result.result.dump(2) + "\n");
   return result;
 }

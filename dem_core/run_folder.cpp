@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include "dem_core/local_strain.h"
+#include "dem_core/quasi_static.h"
 #include "dem_core/shear_band.h"
+#include "dem_core/stress_field.h"
+#include "packing/neighbours.h"
 #include "packing/polydata.h"
 
 namespace pendular {
@@ -25,6 +28,16 @@ std::vector<Vec3> in_um(const std::vector<Vec3>& points) {
   return scaled;
 }
 
+/// 1 where a pair pushes more than the mean of those that push, else 0.
+std::vector<std::int64_t> force_chain(const std::vector<double>& force) {
+  double sum = 0.0, count = 0.0;
+  for (double f : force)
+    if (f > 0.0) sum += f, count += 1.0;
+  std::vector<std::int64_t> in_chain;
+  for (double f : force) in_chain.push_back(f > 0.0 && f * count > sum);
+  return in_chain;
+}
+
 /// Standing bonds, broken bonds and touching pairs without a bond, as lines.
 void add_lines(PolyTable& table, const Simulation& simulation) {
   std::vector<double> force;
@@ -41,7 +54,7 @@ void add_lines(PolyTable& table, const Simulation& simulation) {
   }
   for (const auto& bond : simulation.bonds)
     if (bond.broken) add(bond.i, bond.j, 0.0, 1);
-  table.line_data = {{"normal_force_n", force}, {"state", state}};
+  table.line_data = {{"normal_force_n", force}, {"state", state}, {"force_chain", force_chain(force)}};
 }
 
 std::vector<double> damage(const Simulation& simulation) {
@@ -54,6 +67,13 @@ std::vector<double> damage(const Simulation& simulation) {
   for (std::size_t k = 0; k < all.size(); ++k)
     if (all[k] > 0.0) broken[k] /= all[k];
   return broken;
+}
+
+/// Counted anew: pairs that have come apart since may no longer be listed.
+std::size_t pairs_touching_at_start(const BeadStates& beads, double tolerance) {
+  std::vector<double> diameters;
+  for (double radius : beads.radius) diameters.push_back(2.0 * radius);
+  return pairs_within(beads.start, diameters, tolerance).size();
 }
 
 nlohmann::ordered_json features_json(const std::vector<CurveRow>& rows) {
@@ -96,6 +116,17 @@ nlohmann::ordered_json shear_band_json(const Simulation& simulation, double mean
           {"contrast", band.contrast}};
 }
 
+nlohmann::ordered_json quasi_static_json(const std::vector<CurveRow>& rows) {
+  const auto worst = quasi_static(rows);
+  if (!worst) return nullptr;
+  return {
+      {"holds", worst->holds()},
+      {"largest_inertial_number", worst->inertial_number},
+      {"largest_unbalanced_force", worst->unbalanced_force},
+      {"limits",
+       {{"inertial_number", kQuasiStaticInertialNumber}, {"unbalanced_force", kQuasiStaticUnbalancedForce}}}};
+}
+
 nlohmann::ordered_json work_balance_json(const Simulation& simulation) {
   const Energies now = energies(simulation);
   const Work& work = simulation.work;
@@ -116,11 +147,12 @@ void write_curve(const fs::path& path, const std::vector<CurveRow>& rows, const 
   text +=
       "strain,stress_pa,stress_bottom_pa,broken_bonds,kinetic_energy_j,elastic_energy_j,platen_work_j,damped_"
       "j,"
-      "slipped_j,released_by_breaking_j,bonds_per_bead\n";
+      "slipped_j,released_by_breaking_j,bonds_per_bead,lateral_strain,inertial_number,unbalanced_force\n";
   for (const auto& r : rows)
-    text += fmt::format("{:.9g},{:.9g},{:.9g},{:.0f},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.6g}\n",
-                        r.strain, r.stress, r.stress_bottom, r.broken_bonds, r.kinetic, r.elastic, r.work,
-                        r.damped, r.slipped, r.released, r.coordination);
+    text += fmt::format(
+        "{:.9g},{:.9g},{:.9g},{:.0f},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.6g},{:.9g},{:.6g},{:.6g}\n",
+        r.strain, r.stress, r.stress_bottom, r.broken_bonds, r.kinetic, r.elastic, r.work, r.damped,
+        r.slipped, r.released, r.coordination, r.lateral_strain, r.inertial_number, r.unbalanced_force);
   write_text(path, text);
 }
 
@@ -135,18 +167,33 @@ void write_events(const fs::path& path, const Simulation& simulation,
   write_text(path, text);
 }
 
+void write_avalanches(const fs::path& path, const std::vector<Avalanche>& avalanches,
+                      const Provenance& provenance) {
+  std::string text =
+      to_comment(provenance) + "first_strain,last_strain,breaks,energy_j,x_um,y_um,z_um,extent_um\n";
+  for (const auto& a : avalanches)
+    text += fmt::format("{:.9g},{:.9g},{},{:.6g},{:.4f},{:.4f},{:.4f},{:.4f}\n", a.first_strain,
+                        a.last_strain, a.breaks, a.energy, kUm * a.centre.x(), kUm * a.centre.y(),
+                        kUm * a.centre.z(), kUm * a.extent);
+  write_text(path, text);
+}
+
 void write_frame(const fs::path& path, const Simulation& simulation,
                  const std::vector<std::int64_t>& bead_ids, double stress) {
   const auto& beads = simulation.beads;
   const std::size_t size = beads.size();
   std::vector<Vec3> displacement(size);
-  std::vector<double> diameter(size), shear(size), volumetric(size);
+  std::vector<double> diameter(size), shear(size), volumetric(size), mean_stress(size), deviatoric(size);
   const auto strains = local_strains(beads.start, beads.position, beads.radius);
+  const auto stresses =
+      stress_field(simulation, forces(simulation), beads.position, stress_field_reach(simulation));
   for (std::size_t k = 0; k < size; ++k) {
     displacement[k] = kUm * (beads.position[k] - beads.start[k]);
     diameter[k] = kUm * 2.0 * beads.radius[k];
     shear[k] = strains[k].shear;
     volumetric[k] = strains[k].volumetric;
+    mean_stress[k] = pressure(stresses[k]);
+    deviatoric[k] = deviatoric_stress(stresses[k]);
   }
   const BeadContacts count = bead_contacts(simulation);
   PolyTable table;
@@ -156,6 +203,8 @@ void write_frame(const fs::path& path, const Simulation& simulation,
                       {"displacement_um", displacement},
                       {"local_shear_strain", shear},
                       {"local_volumetric_strain", volumetric},
+                      {"pressure_pa", mean_stress},
+                      {"deviatoric_stress_pa", deviatoric},
                       {"coordination", std::vector<std::int64_t>(count.bonds.begin(), count.bonds.end())},
                       {"touching", std::vector<std::int64_t>(count.touching.begin(), count.touching.end())},
                       {"damage", damage(simulation)}};
@@ -170,26 +219,23 @@ void write_frame(const fs::path& path, const Simulation& simulation,
   write_polydata(path, table);
 }
 
-nlohmann::ordered_json result_json(const RunState& state, double mean_diameter,
+nlohmann::ordered_json result_json(const RunState& state, const Sample& sample,
                                    const Provenance& provenance) {
   const Simulation& simulation = state.simulation;
-  std::size_t touching = 0;
-  for (const auto& pair : simulation.pairs)
-    touching += (simulation.beads.start[pair.i] - simulation.beads.start[pair.j]).norm() -
-                    (simulation.beads.radius[pair.i] + simulation.beads.radius[pair.j]) <=
-                1e-9 * mean_diameter;
+  const double mean_diameter = sample.beads.diameter;
   nlohmann::ordered_json json = features_json(state.rows);
   json["shear_band"] = shear_band_json(simulation, mean_diameter);
   json["work_balance"] = work_balance_json(simulation);
+  json["quasi_static"] = quasi_static_json(state.rows);
   json["broken_bonds"] = simulation.events.size();
   json["beads"] = simulation.beads.size();
   json["bonds"] = simulation.bonds.size();
-  json["pairs_touching_at_start"] = touching;
+  json["pairs_touching_at_start"] = pairs_touching_at_start(simulation.beads, 1e-9 * mean_diameter);
   json["specimen"] = {{"height_um", kUm * simulation.initial_height},
                       {"section_mm2", 1e6 * simulation.section}};
   json["time_step_s"] = simulation.dt;
   json["steps"] = simulation.steps;
-  json["platen_speed_mm_s"] = 1e3 * std::fabs(simulation.bottom.velocity);
+  json["platen_speed_mm_s"] = 1e3 * platen_speed(sample);
   json["final_strain"] = simulation.strain();
   json["provenance"] = to_json(provenance);
   return json;

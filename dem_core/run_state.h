@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "dem_core/curve.h"
+#include "dem_core/platen_program.h"
 #include "dem_core/simulation.h"
 
 namespace pendular {
@@ -12,9 +13,7 @@ struct RunState {
   Simulation simulation;
   std::vector<CurveRow> rows;
   int frames_written = 0;
-  int unloadings_done = 0;
-  bool unloading = false;
-  double force_at_reversal = 0.0;  ///< on the fixed platen, N
+  PlatenProgress platen;
   bool finished = false;
 
   /// Sums over the steps of the row under way.

@@ -41,6 +41,14 @@ TEST_P(BadInput, GivesOneLineAndTheRightStatus) {
   write_text(folder / "metres.csv", "bead_id,x_um,y_um,z_um,diameter_um\n1,0,0,0,2e-4\n2,0,0,2.05e-4,2e-4\n");
   write_text(folder / "nan.csv", "bead_id,x_um,y_um,z_um,diameter_um\n1,0,nan,0,200\n");
   write_text(folder / "column.csv", "bead_id,x_um,y_um,diameter_um\n1,0,0,200\n");
+  write_text(folder / "measured.toml", test::small_sample() + "[beads]\ndiameters = \"measured\"\n");
+  write_text(folder / "deep.csv", "bead_id,x_um,y_um,z_um,diameter_um\n1,0,0,0,200\n2,0,0,180,200\n");
+  write_text(folder / "detached.csv", std::string(kTwoBeads) + "3,0,0,1000,200\n4,0,0,1205,200\n");
+  write_text(folder / "missing_bead.csv", "bead_i,bead_j,gap_um,state\n1,7,5,bridge\n");
+  write_text(folder / "no_stiffness.toml",
+             "[bridges]\nnormal_stiffness_n_per_m = 0\ntangential_stiffness_n_per_m = 325\n");
+  write_text(folder / "large_step.toml", "[contact]\ntime_step_fraction = 0.9\n");
+  write_text(folder / "no_ramp.toml", "[compression]\ncontrol = \"stress\"\n");
   write_text(folder / "noise.mha", "this is no volume");
   write_text(folder / "file", "a file");
   const auto& bad = GetParam();
@@ -77,6 +85,27 @@ INSTANTIATE_TEST_SUITE_P(
                    "tangential_stiffness_n_per_m: expected both or neither"},
         BadCommand{"StiffnessStatedAndPerBridge", "$P pack two.csv --sample two_stiffnesses.toml -o out.vtp",
                    3, "per_bridge"},
+        BadCommand{"DeepOverlap",
+                   "$P pack deep.csv --sample measured.toml -o deep.vtp --quiet && $P compress deep.vtp "
+                   "--sample measured.toml -o out",
+                   3, "beads 1 and 2: found an overlap of 20 um, expected at most 10 um"},
+        BadCommand{"Detached",
+                   "$P pack detached.csv --sample measured.toml -o detached.vtp --quiet && $P compress "
+                   "detached.vtp --sample measured.toml -o out",
+                   3, "no network of bonds and touching beads joins the platens"},
+        BadCommand{"BridgeToAMissingBead",
+                   "$P pack two.csv --bridges missing_bead.csv --sample s.toml -o out.vtp", 3,
+                   "missing_bead.csv"},
+        BadCommand{"NoStiffness", "$P pack two.csv --sample no_stiffness.toml -o out.vtp", 3,
+                   "normal_stiffness_n_per_m"},
+        BadCommand{"LargeTimeStep", "$P pack two.csv --sample large_step.toml -o out.vtp", 3,
+                   "time_step_fraction: found 0.9"},
+        BadCommand{"StressControlWithoutRamp", "$P pack two.csv --sample no_ramp.toml -o out.vtp", 3,
+                   "stress_rate_pa_s"},
+        BadCommand{"FullDiscOfACompression",
+                   "$P pack --generate --sample s.toml -o p.vtp --quiet && (ulimit -f 200; $P compress p.vtp "
+                   "--sample s.toml -o out --quiet)",
+                   4, "checkpoint.next"},
         BadCommand{"NotAPacking", "$P compress two.csv --sample s.toml -o out", 3, "two.csv"},
         BadCommand{"FolderIsAFile",
                    "$P pack two.csv --sample s.toml -o two.vtp --quiet && $P compress two.vtp --sample "

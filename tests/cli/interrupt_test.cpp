@@ -58,6 +58,25 @@ TEST(Resume, ANewRunLeavesNothingOfAnEarlierOne) {
   EXPECT_FALSE(fs::exists(folder / "run" / "frames" / "frame_0002.vtp"));
 }
 
+TEST(Resume, ADamagedCheckpointGivesWayToTheOneBefore) {
+  ScratchFolder folder;
+  write_text(folder / "s.toml", test::small_sample("max_strain = 0.06\nframes = 12\n"));
+  ASSERT_EQ(shell(folder.path(), "$P pack --generate --sample s.toml -o p.vtp").status, 0);
+  ASSERT_EQ(shell(folder.path(), interrupted_run("INT")).status, 130);
+  const auto resume = "$P compress p.vtp --sample s.toml -o stopped --resume";
+  ASSERT_EQ(shell(folder.path(), resume).status, 0);
+  const std::string curve = sha256_of(folder / "stopped" / "curve.csv");
+  ASSERT_TRUE(fs::exists(folder / "stopped" / "checkpoint.previous"));
+  write_text(folder / "stopped" / "checkpoint", "damaged");
+  const auto again = shell(folder.path(), resume);
+  EXPECT_EQ(again.status, 0);
+  EXPECT_NE(again.errors.find("going on from the one before"), std::string::npos) << again.errors;
+  EXPECT_EQ(sha256_of(folder / "stopped" / "curve.csv"), curve);
+  for (const char* name : {"checkpoint", "checkpoint.previous"})
+    write_text(folder / "stopped" / name, "damaged");
+  EXPECT_EQ(shell(folder.path(), resume).status, 3);
+}
+
 TEST(Resume, AnotherSeedIsRefused) {
   ScratchFolder folder;
   write_text(folder / "s.toml", test::small_sample("max_strain = 0.002\nframes = 1\n"));
