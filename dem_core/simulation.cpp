@@ -156,7 +156,7 @@ Simulation build_simulation(const Packing& packing, const Sample& sample) {
   sort_pairs(simulation.pairs);
   place_platens(simulation, platen_speed(sample));
   simulation.section = 0.25 * M_PI * sample.specimen.diameter * sample.specimen.diameter;
-  simulation.skin = 0.015 * sample.beads.diameter;
+  simulation.skin = 0.05 * sample.beads.diameter;
   simulation.dt = time_step(simulation, sample.contact.time_step_fraction);
   list_pairs(simulation);
   return simulation;
