@@ -28,4 +28,19 @@ void for_blocks(std::size_t size, std::size_t block, const Body& body) {
       tbb::auto_partitioner());
 }
 
+/// Remembers which thread did which part of a loop.
+using SameThreads = tbb::affinity_partitioner;
+
+/// Calls body(k) for all k < size; a loop that is run again and again gives each k to the thread that had it
+/// last, whose cache still holds its data, as far as the load allows.
+template <typename Body>
+void for_each(std::size_t size, SameThreads& same_threads, const Body& body) {
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, size),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t k = range.begin(); k != range.end(); ++k) body(k);
+      },
+      same_threads);
+}
+
 }  // namespace pendular

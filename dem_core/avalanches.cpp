@@ -32,10 +32,9 @@ std::vector<std::size_t> linked(const std::vector<BreakEvent>& events, const Ava
 
 AvalancheWindow avalanche_window(const Simulation& simulation, double kn, double rate) {
   const auto& beads = simulation.beads;
-  const double size = static_cast<double>(beads.size());
-  const double diameter = 2.0 * std::accumulate(beads.radius.begin(), beads.radius.end(), 0.0) / size;
-  const double mass = std::accumulate(beads.mass.begin(), beads.mass.end(), 0.0) / size;
-  return {rate * kReach * std::sqrt(mass / kn), kReach * diameter};
+  const double mass =
+      std::accumulate(beads.mass.begin(), beads.mass.end(), 0.0) / static_cast<double>(beads.size());
+  return {rate * kReach * std::sqrt(mass / kn), kReach * beads.mean_diameter()};
 }
 
 std::vector<Avalanche> avalanches(const std::vector<BreakEvent>& events, const AvalancheWindow& window) {

@@ -10,7 +10,7 @@ namespace pendular {
 namespace {
 
 constexpr char kNewest[] = "checkpoint", kPrevious[] = "checkpoint.previous", kNext[] = "checkpoint.next";
-constexpr char kMagic[] = "pendular checkpoint 3\n";
+constexpr char kMagic[] = "pendular checkpoint 4\n";
 
 struct Writer {
   std::string bytes;
@@ -106,8 +106,8 @@ void visit(Archive& a, LawParameters& l) {
 template <typename Archive>
 void visit(Archive& a, Simulation& s) {
   fields(a, s.law, s.dt, s.steps, s.beads, s.pairs, s.bonds, s.bottom, s.top, s.initial_height, s.section,
-         s.skin, s.listed_at, s.bottom_listed_at, s.top_listed_at, s.events, s.work.platen, s.work.damped,
-         s.work.slipped, s.work.broken);
+         s.listing.at, s.listing.margin, s.listing.bottom_at, s.listing.top_at, s.listing.platen_margin,
+         s.events, s.work.platen, s.work.damped, s.work.slipped, s.work.broken);
 }
 
 template <typename Archive>

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include "base/error.h"
 #include "base/interrupt.h"
@@ -32,12 +31,6 @@ std::vector<std::int64_t> bead_ids(const Packing& packing) {
   std::vector<std::int64_t> ids;
   for (const auto& bead : packing.beads) ids.push_back(bead.id);
   return ids;
-}
-
-/// Mean diameter, m.
-double mean_diameter(const BeadStates& beads) {
-  return 2.0 * std::accumulate(beads.radius.begin(), beads.radius.end(), 0.0) /
-         static_cast<double>(beads.size());
 }
 
 /// One compression test from its first to its last step.
@@ -101,7 +94,7 @@ class Test {
     row.coordination =
         2.0 * static_cast<double>(s.bonds.size() - s.events.size()) / static_cast<double>(s.beads.size());
     row.lateral_strain = lateral_strain(s);
-    row.inertial_number = inertial_number(s.bottom.velocity / s.initial_height, mean_diameter(s.beads),
+    row.inertial_number = inertial_number(s.bottom.velocity / s.initial_height, s.beads.mean_diameter(),
                                           sample_.beads.density, row.stress);
     row.unbalanced_force = unbalanced_force(s, forces(s));
     state_.rows.push_back(row);

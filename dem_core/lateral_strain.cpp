@@ -26,18 +26,18 @@ std::vector<std::size_t> outer_beads(const BeadStates& beads) {
   std::vector<std::size_t> all(beads.size()), outer;
   std::iota(all.begin(), all.end(), 0);
   const Lateral axis = mean_of(beads.start, all);
+  const double diameter = beads.mean_diameter();
   const auto from_axis = [&](std::size_t k) { return (beads.start[k].head<2>() - axis).norm(); };
   const auto [lowest, highest] = std::minmax_element(
       beads.start.begin(), beads.start.end(), [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
   const double third = (highest->z() - lowest->z()) / 3.0, from = lowest->z() + third;
-  double outermost = 0.0, mean_diameter = 0.0;
+  double outermost = 0.0;
   for (std::size_t k : all) {
-    mean_diameter += 2.0 * beads.radius[k] / static_cast<double>(all.size());
     if (beads.start[k].z() < from || beads.start[k].z() > from + third) continue;
     outer.push_back(k);
     outermost = std::max(outermost, from_axis(k));
   }
-  std::erase_if(outer, [&](std::size_t k) { return from_axis(k) < outermost - mean_diameter; });
+  std::erase_if(outer, [&](std::size_t k) { return from_axis(k) < outermost - diameter; });
   return outer;
 }
 

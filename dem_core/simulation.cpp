@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -12,6 +13,10 @@
 
 namespace pendular {
 namespace {
+
+// Margins of a listing: what a bead at its present speed moves in so many steps, between two shares of the
+// mean diameter. The least one leaves room for beads that tremble, the largest keeps lists short.
+constexpr double kStepsBetweenListings = 1500.0, kLeastMargin = 0.005, kLargestMargin = 0.3;
 
 double ball_mass(double density, double diameter) {
   return density * M_PI / 6.0 * diameter * diameter * diameter;
@@ -133,7 +138,31 @@ double time_step(const Simulation& simulation, double fraction) {
   return fraction * std::sqrt(lightest / stiffest);
 }
 
+/// Of a body at this speed.
+double margin(double speed, double dt, double diameter) {
+  return std::clamp(kStepsBetweenListings * dt * speed, kLeastMargin * diameter, kLargestMargin * diameter);
+}
+
+Listing listing_of(const Simulation& simulation) {
+  const auto& beads = simulation.beads;
+  const double diameter = beads.mean_diameter();
+  Listing listing;
+  listing.at = beads.position;
+  for (const auto& velocity : beads.velocity)
+    listing.margin.push_back(margin(velocity.norm(), simulation.dt, diameter));
+  listing.bottom_at = simulation.bottom.z;
+  listing.top_at = simulation.top.z;
+  listing.platen_margin =
+      margin(std::max(std::fabs(simulation.bottom.velocity), std::fabs(simulation.top.velocity)),
+             simulation.dt, diameter);
+  return listing;
+}
+
 }  // namespace
+
+double BeadStates::mean_diameter() const {
+  return 2.0 * std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(size());
+}
 
 double platen_speed(const Sample& sample) {
   if (sample.compression.speed_si) return *sample.compression.speed_si;
@@ -156,7 +185,6 @@ Simulation build_simulation(const Packing& packing, const Sample& sample) {
   sort_pairs(simulation.pairs);
   place_platens(simulation, platen_speed(sample));
   simulation.section = 0.25 * M_PI * sample.specimen.diameter * sample.specimen.diameter;
-  simulation.skin = 0.05 * sample.beads.diameter;
   simulation.dt = time_step(simulation, sample.contact.time_step_fraction);
   list_pairs(simulation);
   return simulation;
@@ -164,9 +192,11 @@ Simulation build_simulation(const Packing& packing, const Sample& sample) {
 
 void list_pairs(Simulation& simulation) {
   const auto& beads = simulation.beads;
-  std::vector<double> diameters;
-  for (double radius : beads.radius) diameters.push_back(2.0 * radius);
-  const auto near = pairs_within(beads.position, diameters, simulation.skin);
+  simulation.listing = listing_of(simulation);
+  std::vector<double> reach;
+  for (std::size_t k = 0; k < beads.size(); ++k)
+    reach.push_back(2.0 * (beads.radius[k] + simulation.listing.margin[k]));
+  const auto near = pairs_within(beads.position, reach, 0.0);
   std::vector<Pair> listed;
   listed.reserve(near.size() + simulation.bonds.size() / 8);
   auto old = simulation.pairs.begin();
@@ -189,9 +219,6 @@ void list_pairs(Simulation& simulation) {
   }
   keep_old_before({std::numeric_limits<int>::max(), 0});
   simulation.pairs = std::move(listed);
-  simulation.listed_at = beads.position;
-  simulation.bottom_listed_at = simulation.bottom.z;
-  simulation.top_listed_at = simulation.top.z;
 }
 
 Energies energies(const Simulation& simulation) {

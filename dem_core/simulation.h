@@ -17,10 +17,11 @@ struct BeadStates {
   std::vector<double> radius, mass, inertia;
   std::vector<Vec3> start;  ///< positions before the test
   std::size_t size() const { return position.size(); }
+  double mean_diameter() const;
   BeadMotion motion(std::size_t k) const { return {position[k], velocity[k], spin[k], radius[k]}; }
 };
 
-/// A pair that may act: every bonded pair, and every pair closer than the neighbour list's skin.
+/// A pair that may act: every bonded pair, and every pair that may touch before pairs are listed anew.
 struct Pair {
   int i = 0, j = 0;  ///< i < j
   int bond = -1;     ///< index into Simulation::bonds while the bond stands
@@ -50,6 +51,16 @@ struct Work {
   double damped = 0.0, slipped = 0.0, broken = 0.0;
 };
 
+/// For which places the list of pairs holds: as long as no bead and no platen has moved by more than its
+/// margin. Margins follow speed, so that a few loose beads that fly do not have all pairs listed anew, and
+/// those at rest are not listed with neighbours that they will not touch.
+struct Listing {
+  std::vector<Vec3> at;                  ///< positions of the beads
+  std::vector<double> margin;            ///< of the beads, m
+  double bottom_at = 0.0, top_at = 0.0;  ///< places of the platens' faces, m
+  double platen_margin = 0.0;            ///< m
+};
+
 struct Simulation {
   LawParameters law;
   double dt = 0.0;
@@ -58,11 +69,9 @@ struct Simulation {
   std::vector<Pair> pairs;  ///< sorted by (i, j)
   std::vector<Bond> bonds;
   Platen bottom, top;
-  double initial_height = 0.0;                         ///< distance of the platens at the start, m
-  double section = 0.0;                                ///< initial cross-section, m²
-  double skin = 0.0;                                   ///< pairs are listed up to this gap, m
-  std::vector<Vec3> listed_at;                         ///< positions when the pairs were listed
-  double bottom_listed_at = 0.0, top_listed_at = 0.0;  ///< of the platens' faces
+  double initial_height = 0.0;  ///< distance of the platens at the start, m
+  double section = 0.0;         ///< initial cross-section, m²
+  Listing listing;
   std::vector<BreakEvent> events;
   Work work;
 
@@ -85,7 +94,8 @@ Simulation build_simulation(const Packing& packing, const Sample& sample);
 /// bead.
 double platen_speed(const Sample& sample);
 
-/// Lists anew the pairs within the skin; histories and bonds are kept.
+/// Lists anew the pairs that may touch while no bead moves by more than its margin; histories and bonds are
+/// kept.
 void list_pairs(Simulation& simulation);
 
 Energies energies(const Simulation& simulation);

@@ -62,9 +62,7 @@ void check_joined(const Simulation& simulation, double max_strain) {
   const auto best = std::max_element(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
     return a.highest - a.lowest < b.highest - b.lowest;
   });
-  const auto& radius = simulation.beads.radius;
-  const double diameter =
-      2.0 * std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
+  const double diameter = simulation.beads.mean_diameter();
   const double height = simulation.initial_height, spanned = best->highest - best->lowest;
   if (height - spanned <= max_strain * height + diameter) return;
   bad_input(

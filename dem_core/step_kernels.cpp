@@ -258,8 +258,9 @@ void MoveBeads(BeadTable& beads, Chunk& chunk, double dt) {
       hn::Store(spin, row, bead + 8 + c);
       hn::Store(hn::Zero(row), row, sums + c);
       hn::Store(hn::Zero(row), row, sums + 4 + c);
-      const auto listed = hn::Load(listed_row, beads.listed_rows.data() + 4 * k + c);
-      reach = hn::Max(reach, hn::Abs(hn::Sub(hn::DemoteTo(listed_row, position), listed)));
+      const float* HWY_RESTRICT listed = beads.listed_rows.data() + 4 * k;
+      const auto moved = hn::Sub(hn::DemoteTo(listed_row, position), hn::Load(listed_row, listed + c));
+      reach = hn::Max(reach, hn::Abs(hn::Mul(moved, hn::Set(listed_row, listed[3]))));
     }
     hn::Store(reach, listed_row, farthest + c);
   }

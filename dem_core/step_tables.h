@@ -46,15 +46,14 @@ struct BeadTable {
   std::size_t size = 0;
   AlignedVector<double> rows;               ///< x y z R | vx vy vz dt/m | ωx ωy ωz R
   AlignedVector<double> step_over_inertia;  ///< dt/I
-  AlignedVector<float> listed_rows;         ///< x y z R when the pairs were listed
+  AlignedVector<float> listed_rows;         ///< x y z when the pairs were listed, 1/margin
   /// Force and 0 | torque and 0: a row per bead, which its own chunk adds to, then those that other chunks
   /// add to.
   AlignedVector<double> sums;
 };
 
 /// Beads that are near in space, and the pairs that they own: a pair is owned by the chunk of the first of
-/// its two rows. So a chunk reads and adds to its own beads and those of later chunks only: once all earlier
-/// chunks and its own pairs are done, its beads may move.
+/// its two rows, so a chunk reads and adds to its own beads and those of some later chunks only: its targets.
 struct Chunk {
   std::size_t first_bead = 0, last_bead = 0;
   std::size_t first_block = 0;                ///< bonds whose glass cannot touch before the next listing
@@ -65,14 +64,15 @@ struct Chunk {
     std::uint32_t from, to;
   };
   std::vector<Incoming> incoming;
-  std::size_t first_source = 0;  ///< the first chunk that any of them is from; its own number: none
-  std::vector<std::size_t>
-      near_platen;  ///< rows of the beads that a platen may touch before the next listing
+  std::vector<std::size_t> targets;      ///< chunks whose beads this one adds to; itself one of them
+  int sources = 0;                       ///< number of chunks that have this one as a target
+  std::vector<std::size_t> near_platen;  ///< beads that a platen may touch before the next listing
 
   // What the chunk adds to the sums over the specimen in one step.
   double damped = 0.0, slipped = 0.0, bottom = 0.0, top = 0.0;
-  float farthest[3] = {0.0F, 0.0F, 0.0F};  ///< largest displacement since listing along each axis, m
-  std::vector<std::uint32_t> breaking;     ///< pairs whose bond breaks: block × kBlock + place in it
+  float farthest[3] = {0.0F, 0.0F,
+                       0.0F};           ///< along each axis, largest displacement over margin since listing
+  std::vector<std::uint32_t> breaking;  ///< pairs whose bond breaks: block × kBlock + place in it
 };
 
 }  // namespace pendular

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 
-#include "base/parallel.h"
 #include "dem_core/flush_denormals.h"
 #include "dem_core/step_kernels.h"
 
@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kBeadsPerChunk = 256;
 
-// More shares even out threads that are not equally fast; fewer let more beads move at once.
-constexpr std::size_t kSharesPerThread = 8;
+// Pairs are listed anew where a bead has used this share of its margin: displacements are floats.
+constexpr float kOfMargin = 0.999F;
 
 std::size_t filled_up(std::size_t size) {
   return (size + kBlock - 1) / kBlock * kBlock;
@@ -43,6 +43,7 @@ void put(double* row, const Vec3& v) {
 Vec3 get(const double* row) {
   return {row[0], row[1], row[2]};
 }
+
 }  // namespace
 
 Stepper::Stepper(Simulation& simulation) : simulation_(simulation) {
@@ -56,11 +57,11 @@ void Stepper::load() {
   load_pairs();
   share_sums();
   find_beads_near_platens();
-  share_chunks();
+  awaited_ = std::vector<std::atomic<int>>(chunks_.size());
 }
 
 void Stepper::order_beads() {
-  const auto& at = simulation_.listed_at;
+  const auto& at = simulation_.listing.at;
   Vec3 corner = at.front();
   for (const auto& x : at) corner = corner.cwiseMin(x);
   const double cell = 2.0 * simulation_.beads.radius.front();
@@ -92,15 +93,15 @@ void Stepper::load_beads() {
     bead[7] = simulation_.dt / beads.mass[k];
     beads_.step_over_inertia[row] = simulation_.dt / beads.inertia[k];
     float* listed = &beads_.listed_rows[4 * row];
-    for (int axis = 0; axis < 3; ++axis) listed[axis] = static_cast<float>(simulation_.listed_at[k][axis]);
-    listed[3] = static_cast<float>(beads.radius[k]);
+    for (int axis = 0; axis < 3; ++axis) listed[axis] = static_cast<float>(simulation_.listing.at[k][axis]);
+    listed[3] = static_cast<float>(1.0 / simulation_.listing.margin[k]);
   }
 }
 
 /// Cuts the rows of beads into chunks and gives each pair to the chunk of its first row.
 void Stepper::cut_chunks() {
   const auto& pairs = simulation_.pairs;
-  const auto& at = simulation_.listed_at;
+  const auto& [at, margin, bottom_at, top_at, platen_margin] = simulation_.listing;
   const auto& radius = simulation_.beads.radius;
   chunks_.assign((beads_.size + kBeadsPerChunk - 1) / kBeadsPerChunk, {});
   std::vector<std::array<std::vector<std::int64_t>, 2>> owned(chunks_.size());
@@ -109,7 +110,7 @@ void Stepper::cut_chunks() {
     const double listed_gap = (at[i] - at[j]).norm() - radius[i] - radius[j];
     // With one spring the contact's part of the law is in every pair.
     const bool touchable =
-        listed_gap - pairs[p].properties.touch <= simulation_.skin || simulation_.law.one_spring;
+        listed_gap - pairs[p].properties.touch <= margin[i] + margin[j] || simulation_.law.one_spring;
     owned[std::min(row_of_[i], row_of_[j]) / kBeadsPerChunk][touchable].push_back(
         static_cast<std::int64_t>(p));
   }
@@ -128,7 +129,6 @@ void Stepper::cut_chunks() {
   for (std::size_t c = 0; c < chunks_.size(); ++c) {
     Chunk& chunk = chunks_[c];
     chunk.first_bead = c * kBeadsPerChunk;
-    chunk.first_source = c;
     chunk.last_bead = std::min(beads_.size, chunk.first_bead + kBeadsPerChunk);
     chunk.first_block = pair_of_.size() / kBlock;
     chunk.touchable = append(owned[c][0]);
@@ -202,14 +202,14 @@ void Stepper::share_sums() {
   std::uint32_t next = static_cast<std::uint32_t>(beads_.size);
   for (std::size_t c = 0; c < chunks_.size(); ++c) {
     std::map<std::uint32_t, std::uint32_t> sum_of;
+    std::set<std::size_t> targets = {c};
     const auto place = [&](std::uint32_t row) {
       const std::size_t owner = row / kBeadsPerChunk;
       if (owner == c) return row;
       const auto [entry, is_new] = sum_of.try_emplace(row, next);
       if (is_new) {
-        Chunk& target = chunks_[owner];
-        if (target.incoming.empty()) target.first_source = c;
-        target.incoming.push_back({next++, row});
+        chunks_[owner].incoming.push_back({next++, row});
+        targets.insert(owner);
       }
       return entry->second;
     };
@@ -221,17 +221,20 @@ void Stepper::share_sums() {
       block.sum_i[at] = kSumRow * (fills_up ? nowhere : place(block.i[at] / kBeadRow));
       block.sum_j[at] = kSumRow * (fills_up ? nowhere : place(block.j[at] / kBeadRow));
     }
+    chunks_[c].targets.assign(targets.begin(), targets.end());
+    for (const std::size_t target : targets) ++chunks_[target].sources;
   }
   beads_.sums.assign(kSumRow * static_cast<std::size_t>(next), 0.0);
 }
 
 void Stepper::find_beads_near_platens() {
+  const Listing& listing = simulation_.listing;
   for (auto& chunk : chunks_)
     for (std::size_t row = chunk.first_bead; row < chunk.last_bead; ++row) {
       const double z = beads_.listed_rows[4 * row + 2];
-      const double reach = beads_.rows[kBeadRow * row + 3] + simulation_.skin;
-      if (z - reach <= simulation_.bottom_listed_at || z + reach >= simulation_.top_listed_at)
-        chunk.near_platen.push_back(row);
+      const double reach =
+          beads_.rows[kBeadRow * row + 3] + listing.margin[bead_of_[row]] + listing.platen_margin;
+      if (z - reach <= listing.bottom_at || z + reach >= listing.top_at) chunk.near_platen.push_back(row);
     }
 }
 
@@ -254,21 +257,10 @@ void Stepper::store() {
       if (pair_of_[p] >= 0) store_pair(chunk, p);
 }
 
-/// Shares for the threads: chunks that follow one another, with about the same number of pairs.
-void Stepper::share_chunks() {
-  const std::size_t shares =
-      thread_count() == 1 ? 1 : std::min(chunks_.size(), kSharesPerThread * thread_count());
-  const std::size_t blocks = pairs_.blocks.size();
-  shares_.assign(1, 0);
-  for (std::size_t c = 0; c < chunks_.size(); ++c)
-    if (chunks_[c].last_block * shares >= blocks * shares_.size() && shares_.size() < shares)
-      shares_.push_back(c + 1);
-  shares_.push_back(chunks_.size());
-}
-
 void Stepper::step() {
-  for_blocks(shares_.size() - 1, 1, [&](std::size_t share, std::size_t) { advance_share(share); });
-  for_blocks(shares_.size() - 1, 1, [&](std::size_t share, std::size_t) { move_waiting(share); });
+  for (std::size_t c = 0; c < chunks_.size(); ++c)
+    awaited_[c].store(chunks_[c].sources, std::memory_order_relaxed);
+  for_each(chunks_.size(), same_threads_, [&](std::size_t c) { advance_chunk(c); });
   add_up();
   break_bonds();
   advance_platens(simulation_);
@@ -278,25 +270,18 @@ void Stepper::step() {
   load();
 }
 
-/// First pass. Beads that no other share has added to move at once, while they are in the cache.
-void Stepper::advance_share(std::size_t share) {
+/// A chunk's pairs read and add to its own beads and those of its targets, so a chunk's beads may move when
+/// all that have it as a target are done.
+void Stepper::advance_chunk(std::size_t c) {
   const FlushDenormals here;
-  const LawNumbers<double> law = numbers(simulation_.law, simulation_.dt);
-  for (std::size_t c = shares_[share]; c < shares_[share + 1]; ++c) {
-    Chunk& chunk = chunks_[c];
-    chunk.damped = chunk.slipped = chunk.bottom = chunk.top = 0.0;
-    chunk.breaking.clear();
-    advance_pairs(pairs_, beads_, chunk, law, parts(simulation_.law));
-    press_platens(chunk);
-    if (chunk.first_source >= shares_[share]) move_beads(beads_, chunk, simulation_.dt);
-  }
-}
-
-/// Second pass: the other beads.
-void Stepper::move_waiting(std::size_t share) {
-  const FlushDenormals here;
-  for (std::size_t c = shares_[share]; c < shares_[share + 1]; ++c)
-    if (chunks_[c].first_source < shares_[share]) move_beads(beads_, chunks_[c], simulation_.dt);
+  Chunk& chunk = chunks_[c];
+  chunk.damped = chunk.slipped = chunk.bottom = chunk.top = 0.0;
+  chunk.breaking.clear();
+  advance_pairs(pairs_, beads_, chunk, numbers(simulation_.law, simulation_.dt), parts(simulation_.law));
+  press_platens(chunk);
+  for (const std::size_t target : chunk.targets)
+    if (awaited_[target].fetch_sub(1, std::memory_order_acq_rel) == 1)
+      move_beads(beads_, chunks_[target], simulation_.dt);
 }
 
 /// Breaks are taken when all beads have moved, in the order of the table.
@@ -341,10 +326,10 @@ bool Stepper::listing_due() const {
   float farthest[3] = {0.0F, 0.0F, 0.0F};
   for (const auto& chunk : chunks_)
     for (int axis = 0; axis < 3; ++axis) farthest[axis] = std::max(farthest[axis], chunk.farthest[axis]);
-  const double bead = std::hypot(static_cast<double>(farthest[0]), farthest[1], farthest[2]);
-  const double platen = std::max(std::fabs(simulation_.bottom.z - simulation_.bottom_listed_at),
-                                 std::fabs(simulation_.top.z - simulation_.top_listed_at));
-  return 2.0 * std::max(bead, platen) > simulation_.skin;
+  if (std::hypot(farthest[0], farthest[1], farthest[2]) > kOfMargin) return true;
+  const Listing& listing = simulation_.listing;
+  return std::max(std::fabs(simulation_.bottom.z - listing.bottom_at),
+                  std::fabs(simulation_.top.z - listing.top_at)) > listing.platen_margin;
 }
 
 }  // namespace pendular

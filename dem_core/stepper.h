@@ -1,16 +1,19 @@
 #pragma once
 
+#include <atomic>
 #include <vector>
 
+#include "base/parallel.h"
 #include "dem_core/simulation.h"
 #include "dem_core/step_tables.h"
 
 namespace pendular {
 
 /// Advances a simulation step by step, fast: vector kernels over tables of pairs and beads, which are kept in
-/// the order of their place in space. Chunks of neighbouring beads and their pairs are what threads share: in
-/// a first pass a chunk advances its pairs and adds their forces to sums of its own, in a second it collects
-/// the sums of its beads and moves them. No atomics, and the same sums for any number of threads.
+/// the order of their place in space. Chunks of neighbouring beads and their pairs are what threads share. A
+/// chunk advances its pairs and adds their forces to sums of its own; once all chunks that add to a chunk's
+/// beads have done so, the last of them collects these sums in fixed order and moves the beads. One parallel
+/// region per step, and the same sums for any number of threads.
 ///
 /// The simulation's platens, sums, events and step count are always true; its beads and pairs are after
 /// store(). The tables are made anew from the simulation alone, so building a stepper anew changes no result.
@@ -18,7 +21,7 @@ class Stepper {
  public:
   explicit Stepper(Simulation& simulation);
 
-  /// One time step. Pairs are listed anew where a bead or platen may have moved half a skin.
+  /// One time step. Pairs are listed anew where a bead or platen may have moved by its margin.
   void step();
 
   /// Writes beads and pairs back to the simulation.
@@ -35,9 +38,7 @@ class Stepper {
   void find_beads_near_platens();
   void store_pair(const Chunk& chunk, std::size_t at);
   ContactBlock* contact_of(const Chunk& chunk, std::size_t at);
-  void share_chunks();
-  void advance_share(std::size_t share);
-  void move_waiting(std::size_t share);
+  void advance_chunk(std::size_t c);
   void press_platens(Chunk& chunk);
   void break_bonds();
   void add_up();
@@ -48,10 +49,11 @@ class Stepper {
   std::vector<std::size_t> bead_of_;   ///< row of the bead table → bead
   std::vector<std::int32_t> row_of_;   ///< bead → row
   std::vector<std::int64_t> pair_of_;  ///< place in the pair table → pair, or −1: fills up
-  std::vector<std::size_t> shares_;    ///< first chunk of each share, and one past the last
   PairTable pairs_;
   BeadTable beads_;
   std::vector<Chunk> chunks_;
+  std::vector<std::atomic<int>> awaited_;  ///< of each chunk: those that have not yet added to its beads
+  SameThreads same_threads_;
 };
 
 }  // namespace pendular

@@ -134,8 +134,7 @@ std::vector<Stress> stress_field(const Simulation& simulation, const Forces& for
 }
 
 double stress_field_reach(const Simulation& simulation) {
-  const auto& radius = simulation.beads.radius;
-  return 3.0 * std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
+  return 1.5 * simulation.beads.mean_diameter();
 }
 
 double pressure(const Stress& stress) {

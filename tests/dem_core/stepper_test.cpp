@@ -60,7 +60,7 @@ TEST_P(Kernel, AgreesWithTheReferenceLoop) {
   for (int k = 0; k < 150; ++k) {
     stepper.step();
     reference_step(slow);
-    if (fast.bottom_listed_at != slow.bottom_listed_at) list_pairs(slow);
+    if (fast.listing.bottom_at != slow.listing.bottom_at) list_pairs(slow);
   }
   stepper.store();
 
@@ -130,7 +130,7 @@ TEST(Stepper, ATurnedSpecimenMovesTheSame) {
   auto& beads = turned.beads;
   for (std::size_t k = 0; k < beads.size(); ++k) {
     for (Vec3* v : {&beads.position[k], &beads.velocity[k], &beads.spin[k]}) *v = turn * *v;
-    turned.listed_at[k] = beads.position[k];
+    turned.listing.at[k] = beads.position[k];
   }
   Stepper first(upright), second(turned);
   for (int k = 0; k < 150; ++k) first.step(), second.step();
