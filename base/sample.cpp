@@ -1,5 +1,7 @@
 #include "base/sample.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/error.h"
@@ -26,6 +28,8 @@ const std::vector<NumberKey>& number_keys() {
        "Poisson ratio of the polymer"},
       {"bridges.diameter_um", um, 0.01, 1e5, PENDULAR_AT(bridges.diameter), "mean neck diameter d"},
       {"bridges.diameter_sd_um", um, 0.0, 1e4, PENDULAR_AT(bridges.diameter_sd), "spread of neck diameters"},
+      {"bridges.polymer_content", 1, 1e-6, 0.4, PENDULAR_AT(bridges.polymer_content),
+       "W of the specimen, volume of polymer over that of the specimen, for which the diameter holds"},
       {"bridges.gap_um", um, 1e-4, 1e4, PENDULAR_AT(bridges.gap), "gap δ0 for which the stiffness holds"},
       {"bridges.cutoff", 1, 0.0, 1.0, PENDULAR_AT(bridges.cutoff),
        "largest gap of a candidate bridge over D"},
@@ -107,12 +111,28 @@ const std::vector<WordKey>& word_keys() {
   return keys;
 }
 
-std::vector<std::string> all_key_names() {
+const std::vector<StrainsKey>& strains_keys() {
+  static const std::vector<StrainsKey> keys = {
+      {"compression.unload_at", [](Sample& s) -> std::vector<double>& { return s.compression.unload_at; }},
+      {"compression.hold_at", [](Sample& s) -> std::vector<double>& { return s.compression.hold_at; }},
+  };
+  return keys;
+}
+
+const std::vector<SwitchKey>& switch_keys() {
+  static const std::vector<SwitchKey> keys = {
+      {"contact.bond_friction_limit", [](Sample& s) -> bool& { return s.contact.bond_friction_limit; }},
+  };
+  return keys;
+}
+
+std::vector<std::string> sample_key_names() {
   std::vector<std::string> names;
   for (const auto& key : number_keys()) names.push_back(key.name);
   for (const auto& key : word_keys()) names.push_back(key.name);
-  names.insert(names.end(), {"contact.bond_friction_limit", "compression.unload_at", "compression.hold_at",
-                             "specimen.shape"});
+  for (const auto& key : strains_keys()) names.push_back(key.name);
+  for (const auto& key : switch_keys()) names.push_back(key.name);
+  names.push_back("specimen.shape");
   return names;
 }
 
@@ -122,33 +142,53 @@ const NumberKey& find_number_key(const std::string& name) {
   for (const auto& key : number_keys())
     if (key.name == name) return key;
   bad_input("unknown key \"{}\", expected a numeric key of the sample file; the nearest is \"{}\"", name,
-            nearest_key(name));
+            nearest_name(name, sample_key_names()));
+}
+
+template <typename T>
+const T& expect(const SampleValue& value, const std::string& where, const char* expected) {
+  if (const T* held = std::get_if<T>(&value)) return *held;
+  static constexpr const char* kKinds[] = {"a number", "true or false", "a string", "an array"};
+  bad_input("{}: found {}, expected {}", where, kKinds[value.index()], expected);
+}
+
+void set_strains(std::vector<double>& field, const std::vector<double>& strains, const std::string& where) {
+  double last = 0.0;
+  for (const double strain : strains) {
+    if (!(strain > last && strain <= 0.5))
+      bad_input("{}: found {}, expected rising strains between 0 and 0.5", where, strain);
+    last = strain;
+  }
+  field = strains;
 }
 
 }  // namespace
 
-std::string nearest_key(const std::string& name) {
-  return nearest_name(name, all_key_names());
-}
-
-void NumberKey::set(Sample& sample, double value) const {
+void NumberKey::set(Sample& sample, double value, const std::string& where) const {
   if (!(value >= lowest && value <= highest))
-    bad_input("{} = {}: expected a number from {} to {}", name, value, lowest, highest);
+    bad_input("{}: found {}, expected a number from {} to {}", where, value, lowest, highest);
   if (const auto* plain = std::get_if<PlainField>(&field))
     (*plain)(sample) = value * unit;
   else
     std::get<OptionalField>(field)(sample) = value * unit;
 }
 
-std::optional<double> NumberKey::get(const Sample& sample) const {
+std::optional<double> NumberKey::in_si(const Sample& sample) const {
   Sample copy = sample;
-  std::optional<double> value;
-  if (const auto* plain = std::get_if<PlainField>(&field))
-    value = (*plain)(copy);
-  else
-    value = std::get<OptionalField>(field)(copy);
+  if (const auto* plain = std::get_if<PlainField>(&field)) return (*plain)(copy);
+  return std::get<OptionalField>(field)(copy);
+}
+
+std::optional<double> NumberKey::get(const Sample& sample) const {
+  auto value = in_si(sample);
   if (value) *value /= unit;
   return value;
+}
+
+void WordKey::set(Sample& sample, const std::string& word, const std::string& where) const {
+  if (std::find(allowed.begin(), allowed.end(), word) == allowed.end())
+    bad_input("{}: found \"{}\", expected one of \"{}\"", where, word, fmt::join(allowed, "\", \""));
+  field(sample) = word;
 }
 
 std::vector<SampleKey> sample_keys() {
@@ -157,14 +197,45 @@ std::vector<SampleKey> sample_keys() {
   return keys;
 }
 
+void set_sample_key(Sample& sample, const std::string& name, const SampleValue& value,
+                    const std::string& where) {
+  for (const auto& key : number_keys())
+    if (key.name == name) return key.set(sample, expect<double>(value, where, "a number"), where);
+  for (const auto& key : word_keys())
+    if (key.name == name) return key.set(sample, expect<std::string>(value, where, "a string"), where);
+  for (const auto& key : strains_keys())
+    if (key.name == name)
+      return set_strains(key.field(sample), expect<std::vector<double>>(value, where, "an array of strains"),
+                         where);
+  for (const auto& key : switch_keys())
+    if (key.name == name) {
+      key.field(sample) = expect<bool>(value, where, "true or false");
+      return;
+    }
+  if (name == "specimen.shape") {
+    if (value != SampleValue("cylinder")) bad_input("{}: expected \"cylinder\"", where);
+    return;
+  }
+  bad_input("{}: unknown key, the nearest known one is \"{}\"", where,
+            nearest_name(name, sample_key_names()));
+}
+
 void set_sample_key(Sample& sample, const std::string& name, double value) {
-  find_number_key(name).set(sample, value);
+  find_number_key(name).set(sample, value, name);
 }
 
 double sample_key(const Sample& sample, const std::string& name) {
   const auto value = find_number_key(name).get(sample);
   if (!value) bad_input("{} is not set in this sample", name);
   return *value;
+}
+
+void set_polymer_content(Sample& sample, double content) {
+  if (!(content > 0.0)) bad_input("W: found {}, expected a positive fraction", content);
+  const double factor = std::sqrt(content / sample.bridges.polymer_content);
+  set_sample_key(sample, "bridges.polymer_content", content);
+  for (const char* name : {"bridges.diameter_um", "bridges.diameter_sd_um"})
+    set_sample_key(sample, name, factor * sample_key(sample, name));
 }
 
 }  // namespace pendular

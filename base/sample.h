@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/files.h"
@@ -26,12 +28,13 @@ struct Sample {
   struct Bridges {
     double youngs_modulus = 1.5e6;  ///< E_p, Pa
     double poisson_ratio = 0.49;
-    double diameter = 73.9e-6;                   ///< mean neck diameter d, m
-    double diameter_sd = 12.7e-6;                ///< m
-    double gap = 2e-6;                           ///< δ0 for which the stiffness holds, m
-    double cutoff = 0.064;                       ///< candidate bridges have gaps below cutoff × D
-    double interfacial_energy = 7.0;             ///< G, J/m2
-    std::optional<double> normal_stiffness;      ///< kn, N/m
+    double diameter = 73.9e-6;               ///< mean neck diameter d, m
+    double diameter_sd = 12.7e-6;            ///< m
+    double polymer_content = 0.023;          ///< W for which the diameter holds, see set_polymer_content()
+    double gap = 2e-6;                       ///< δ0 for which the stiffness holds, m
+    double cutoff = 0.064;                   ///< candidate bridges have gaps below cutoff × D
+    double interfacial_energy = 7.0;         ///< G, J/m2
+    std::optional<double> normal_stiffness;  ///< kn, N/m
     std::optional<double> tangential_stiffness;  ///< kt, N/m
     std::string stiffness =
         "one";  ///< "one": all bonds the same, as the paper; "per_bridge": each from its own gap and diameter
@@ -98,16 +101,40 @@ struct SampleKey {
 /// Every numeric key, in the file's order.
 std::vector<SampleKey> sample_keys();
 
+/// A key's value in the unit of its name: a number, true or false, a word, or strains.
+using SampleValue = std::variant<double, bool, std::string, std::vector<double>>;
+
+/// A key by its dotted name, and a value for it.
+using SampleSetting = std::pair<std::string, SampleValue>;
+
+/// The names of all keys, numeric or not.
+std::vector<std::string> sample_key_names();
+
 /// Reads and checks a sample file. BadInput names file, line, key, what was found and what was expected;
 /// an unknown key names the nearest known one.
 Sample read_sample(const fs::path& path);
 
-/// The same from text; `name` stands for the file in messages.
-Sample parse_sample(std::string_view text, const std::string& name);
+/// The same from text; `name` stands for the file in messages. The settings count as if the text had them.
+Sample parse_sample(std::string_view text, const std::string& name,
+                    const std::vector<SampleSetting>& settings = {});
+
+/// The sample as the text of a file that states every key, always in the same order. What is read from it
+/// equals the sample exactly if its numbers came from a file or from set_sample_key(), and to 1e-15
+/// otherwise.
+std::string sample_text(const Sample& sample);
+
+/// Sets one key by its dotted name. BadInput, opening with `where`, for an unknown key, a value of the wrong
+/// kind or one out of range. What keys must fulfil together is not checked.
+void set_sample_key(Sample& sample, const std::string& name, const SampleValue& value,
+                    const std::string& where);
 
 /// Sets or reads one numeric key by its dotted name, in the unit of the name. BadInput for an unknown key
 /// or a value out of range.
 void set_sample_key(Sample& sample, const std::string& name, double value);
 double sample_key(const Sample& sample, const std::string& name);
+
+/// Changes the polymer content W (volume of polymer over that of the specimen) and with it the diameter of
+/// the bridges and its spread, W ∝ d² (Hemmerle et al. 2021). BadInput where W or d leave their ranges.
+void set_polymer_content(Sample& sample, double content);
 
 }  // namespace pendular

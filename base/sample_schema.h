@@ -1,6 +1,7 @@
 #pragma once
 
-// The list of keys of the sample file, shared by its reader and by set_sample_key(). Internal to base.
+// The list of keys of the sample file, shared by its reader, its writer and set_sample_key(). Internal to
+// base.
 
 #include <optional>
 #include <string>
@@ -21,19 +22,34 @@ struct NumberKey {
   std::variant<PlainField, OptionalField> field;
   std::string meaning;
 
-  void set(Sample& sample, double value) const;           ///< BadInput out of range
-  std::optional<double> get(const Sample& sample) const;  ///< in the key's unit
+  /// BadInput, opening with `where`, out of range.
+  void set(Sample& sample, double value, const std::string& where) const;
+  std::optional<double> in_si(const Sample& sample) const;  ///< the field's value
+  std::optional<double> get(const Sample& sample) const;    ///< in the key's unit
 };
 
 struct WordKey {
   std::string name;
   std::vector<std::string> allowed;
   std::string& (*field)(Sample&);
+
+  /// BadInput, opening with `where`, for a word that is not allowed.
+  void set(Sample& sample, const std::string& word, const std::string& where) const;
+};
+
+struct StrainsKey {
+  std::string name;
+  std::vector<double>& (*field)(Sample&);
+};
+
+struct SwitchKey {
+  std::string name;
+  bool& (*field)(Sample&);
 };
 
 const std::vector<NumberKey>& number_keys();
 const std::vector<WordKey>& word_keys();
-std::vector<std::string> all_key_names();
-std::string nearest_key(const std::string& name);
+const std::vector<StrainsKey>& strains_keys();
+const std::vector<SwitchKey>& switch_keys();
 
 }  // namespace pendular

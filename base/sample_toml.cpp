@@ -1,92 +1,13 @@
-#include <toml++/toml.h>
-
-#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/error.h"
 #include "base/sample.h"
 #include "base/sample_schema.h"
+#include "base/toml_place.h"
 
 namespace pendular {
 namespace {
-
-struct Place {
-  std::string file;
-  std::string name;
-  const toml::node& node;
-
-  std::string str() const { return fmt::format("{}:{}: {}", file, node.source().begin.line, name); }
-};
-
-std::string type_name(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::string:
-      return "a string";
-    case toml::node_type::array:
-      return "an array";
-    case toml::node_type::table:
-      return "a table";
-    case toml::node_type::boolean:
-      return "a boolean";
-    default:
-      return "another type";
-  }
-}
-
-double number_at(const Place& place) {
-  if (!place.node.is_number())
-    bad_input("{}: found {}, expected a number", place.str(), type_name(place.node));
-  const double value = place.node.value<double>().value();
-  if (!std::isfinite(value)) bad_input("{}: found {}, expected a finite number", place.str(), value);
-  return value;
-}
-
-void read_word(Sample& sample, const WordKey& key, const Place& place) {
-  const auto word = place.node.value<std::string>();
-  if (!place.node.is_string() ||
-      std::find(key.allowed.begin(), key.allowed.end(), *word) == key.allowed.end())
-    bad_input("{}: found {}, expected one of \"{}\"", place.str(),
-              word ? '"' + *word + '"' : type_name(place.node), fmt::join(key.allowed, "\", \""));
-  key.field(sample) = *word;
-}
-
-void read_strains(std::vector<double>& strains, const Place& place) {
-  const auto* array = place.node.as_array();
-  if (!array) bad_input("{}: found {}, expected an array of strains", place.str(), type_name(place.node));
-  strains.clear();
-  for (const auto& item : *array) {
-    const double strain = number_at({place.file, place.name, item});
-    if (strain <= 0.0 || strain > 0.5 || (!strains.empty() && strain <= strains.back()))
-      bad_input("{}: found {}, expected rising strains between 0 and 0.5", place.str(), strain);
-    strains.push_back(strain);
-  }
-}
-
-void read_key(Sample& sample, const Place& place) {
-  for (const auto& key : number_keys()) {
-    if (key.name != place.name) continue;
-    const double value = number_at(place);
-    if (!(value >= key.lowest && value <= key.highest))
-      bad_input("{}: found {}, expected a number from {} to {}", place.str(), value, key.lowest, key.highest);
-    key.set(sample, value);
-    return;
-  }
-  for (const auto& key : word_keys())
-    if (key.name == place.name) return read_word(sample, key, place);
-  if (place.name == "compression.unload_at") return read_strains(sample.compression.unload_at, place);
-  if (place.name == "compression.hold_at") return read_strains(sample.compression.hold_at, place);
-  if (place.name == "contact.bond_friction_limit") {
-    if (!place.node.is_boolean())
-      bad_input("{}: found {}, expected true or false", place.str(), type_name(place.node));
-    sample.contact.bond_friction_limit = place.node.value<bool>().value();
-    return;
-  }
-  if (place.name == "specimen.shape") {
-    if (place.node.value<std::string>() != "cylinder") bad_input("{}: expected \"cylinder\"", place.str());
-    return;
-  }
-  bad_input("{}: unknown key, the nearest known one is \"{}\"", place.str(), nearest_key(place.name));
-}
 
 void check_together(const Sample& sample, const std::string& file) {
   if (sample.bridges.diameter >= sample.beads.diameter)
@@ -119,25 +40,26 @@ void check_together(const Sample& sample, const std::string& file) {
 
 }  // namespace
 
-Sample parse_sample(std::string_view text, const std::string& name) {
-  toml::table root;
-  try {
-    root = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    bad_input("{}:{}: {}", name, error.source().begin.line, error.description());
-  }
+Sample parse_sample(std::string_view text, const std::string& name,
+                    const std::vector<SampleSetting>& settings) {
+  const toml::table root = parse_toml(text, name);
   Sample sample;
   bool platen_friction_given = false;
   for (const auto& [section, node] : root) {
     const auto* table = node.as_table();
     const std::string prefix(section.str());
     if (!table)
-      bad_input("{}", Place{name, prefix, node}.str() + ": unknown key, expected a section such as [beads]");
+      bad_input("{}",
+                TomlPlace{name, prefix, node}.str() + ": unknown key, expected a section such as [beads]");
     for (const auto& [key, value] : *table) {
-      const std::string dotted = prefix + "." + std::string(key.str());
-      read_key(sample, {name, dotted, value});
-      platen_friction_given |= dotted == "contact.platen_friction";
+      const TomlPlace place{name, prefix + "." + std::string(key.str()), value};
+      set_sample_key(sample, place.name, value_at(place), place.str());
+      platen_friction_given |= place.name == "contact.platen_friction";
     }
+  }
+  for (const auto& [key, value] : settings) {
+    set_sample_key(sample, key, value, name + ": " + key);
+    platen_friction_given |= key == "contact.platen_friction";
   }
   // The paper treats a platen "the same way as another particle" unless the experimenter knows better.
   if (!platen_friction_given) sample.contact.platen_friction = sample.contact.friction;
@@ -147,6 +69,44 @@ Sample parse_sample(std::string_view text, const std::string& name) {
 
 Sample read_sample(const fs::path& path) {
   return parse_sample(read_text(path), path.string());
+}
+
+namespace {
+
+/// A number in the key's unit from which reading makes the field's value again, bit for bit where there is
+/// one.
+double exact_number(const NumberKey& key, double in_unit, const Sample& sample) {
+  const double below = std::nextafter(in_unit, 0.0), above = std::nextafter(in_unit, HUGE_VAL);
+  for (const double candidate : {in_unit, below, above}) {
+    if (!(candidate >= key.lowest && candidate <= key.highest)) continue;
+    Sample again = sample;
+    key.set(again, candidate, key.name);
+    if (key.in_si(again) == key.in_si(sample)) return candidate;
+  }
+  return in_unit;
+}
+
+}  // namespace
+
+std::string sample_text(const Sample& sample) {
+  Sample copy = sample;
+  std::vector<std::pair<std::string, std::string>> lines;  // dotted name, value
+  for (const auto& key : number_keys())
+    if (const auto value = key.get(sample))
+      lines.emplace_back(key.name, fmt::format("{}", exact_number(key, *value, sample)));
+  for (const auto& key : word_keys()) lines.emplace_back(key.name, '"' + key.field(copy) + '"');
+  for (const auto& key : strains_keys())
+    lines.emplace_back(key.name, fmt::format("[{}]", fmt::join(key.field(copy), ", ")));
+  for (const auto& key : switch_keys()) lines.emplace_back(key.name, key.field(copy) ? "true" : "false");
+
+  std::map<std::string, std::string> sections;
+  for (const auto& [name, value] : lines) {
+    const auto dot = name.find('.');
+    sections[name.substr(0, dot)] += fmt::format("{} = {}\n", name.substr(dot + 1), value);
+  }
+  std::string text;
+  for (const auto& [section, keys] : sections) text += fmt::format("[{}]\n{}", section, keys);
+  return text;
 }
 
 }  // namespace pendular

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+
 #include "base/error.h"
+#include "base/random.h"
 
 namespace pendular {
 namespace {
@@ -27,6 +31,78 @@ TEST(Sample, EveryNumericKeyCanBeSetAndReadBack) {
     set_sample_key(sample, key.name, value);
     EXPECT_NEAR(sample_key(sample, key.name), value, 1e-12 * value) << key.name;
   }
+}
+
+/// A value other than the one a key has by default.
+SampleValue other_value(const std::string& name) {
+  static const std::map<std::string, SampleValue> special = {
+      {"beads.diameters", "measured"},
+      {"bridges.stiffness", "per_bridge"},
+      {"contact.tangential_springs", "one"},
+      {"compression.control", "stress"},
+      {"compression.unload_at", std::vector{0.01, 0.02}},
+      {"compression.hold_at", std::vector{0.03}},
+      {"contact.bond_friction_limit", false}};
+  const auto found = special.find(name);
+  if (found != special.end()) return found->second;
+  for (const auto& key : sample_keys())
+    if (key.name == name) return std::isfinite(key.highest) ? 0.3 * key.lowest + 0.7 * key.highest : 1234.5;
+  ADD_FAILURE() << "no value for " << name;
+  return 0.0;
+}
+
+TEST(Sample, ItsTextTellsEveryKey) {
+  const std::string before = sample_text(Sample{});
+  for (const auto& name : sample_key_names()) {
+    if (name == "specimen.shape") continue;  // has one value
+    Sample sample;
+    set_sample_key(sample, name, other_value(name), "test");
+    EXPECT_NE(sample_text(sample), before) << name;
+  }
+}
+
+TEST(Sample, ItsTextReadsBackBitForBit) {
+  const auto root = fs::path(PENDULAR_SOURCE_DIR) / "samples";
+  for (const char* name : {"hemmerle2021_a", "hemmerle2021_b", "demo"})
+    for (int round = 0; round < 50; ++round) {
+      Sample sample = read_sample(root / (std::string(name) + ".toml"));
+      sample.compression.unload_at = {0.01, 1.0 / 30.0};
+      std::uint64_t draw = 0;
+      for (const auto& key : sample_keys()) {
+        if (key.name == "phantom.bits" || key.name == "compression.stress_rate_pa_s" || draw++ % 3 == 0)
+          continue;
+        if (key.name == "bridges.diameter_um" || !std::isfinite(key.highest)) continue;
+        const double u = random_uniform(static_cast<std::uint64_t>(round), draw);
+        set_sample_key(sample, key.name, key.lowest + u * (key.highest - key.lowest));
+      }
+      set_sample_key(sample, "beads.diameter_um", 150.0 + 100.0 * random_uniform(3, round));
+      const Sample again = parse_sample(sample_text(sample), "again");
+      EXPECT_EQ(sample_text(again), sample_text(sample));
+      for (const auto& key : sample_keys()) {
+        if (key.name.find("stiffness_n_per_m") != std::string::npos || !std::isfinite(key.highest)) continue;
+        if (key.name == "compression.speed_mm_s" || key.name == "compression.hold_s") continue;
+        EXPECT_EQ(sample_key(again, key.name), sample_key(sample, key.name)) << key.name;
+      }
+      EXPECT_EQ(again.compression.unload_at, sample.compression.unload_at);
+    }
+}
+
+TEST(Sample, SettingsCountAsIfTheFileHadThem) {
+  const std::string text = "[contact]\nfriction = 0.3\n";
+  EXPECT_EQ(
+      sample_text(parse_sample(text, "s", {{"contact.friction", 0.1}, {"bridges.stiffness", "per_bridge"}})),
+      sample_text(parse_sample("[contact]\nfriction = 0.1\n[bridges]\nstiffness = \"per_bridge\"\n", "s")));
+  EXPECT_THROW(parse_sample(text, "s", {{"bridges.normal_stiffness_n_per_m", 5.0}}), BadInput);
+  EXPECT_THROW(parse_sample(text, "s", {{"contact.friction", "low"}}), BadInput);
+}
+
+TEST(Sample, PolymerContentGoesAsTheSquareOfTheNeck) {
+  Sample sample;
+  set_polymer_content(sample, 4.0 * sample.bridges.polymer_content);
+  EXPECT_NEAR(sample.bridges.diameter, 2.0 * Sample{}.bridges.diameter, 1e-15);
+  EXPECT_NEAR(sample.bridges.diameter_sd, 2.0 * Sample{}.bridges.diameter_sd, 1e-15);
+  EXPECT_DOUBLE_EQ(sample.bridges.polymer_content, 4.0 * Sample{}.bridges.polymer_content);
+  EXPECT_THROW(set_polymer_content(sample, -0.01), BadInput);
 }
 
 TEST(Sample, TheProjectsOwnSamplesAreValid) {
