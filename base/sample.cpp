@@ -64,8 +64,8 @@ const std::vector<NumberKey>& number_keys() {
        "strain at which the run ends"},
       {"compression.rows_per_strain", 1, 10.0, 1e7, PENDULAR_AT(compression.rows_per_strain),
        "rows of curve.csv per unit strain"},
-      {"compression.frames", 1, 1.0, 1e4, PENDULAR_AT(compression.frames),
-       "frames written, evenly in strain"},
+      {"compression.frames", 1, 0.0, 1e4, PENDULAR_AT(compression.frames),
+       "frames written, evenly in strain; 0: none"},
       {"phantom.voxel_um", um, 1e-3, 1e4, PENDULAR_AT(phantom.voxel), "voxel size"},
       {"phantom.blur_voxels", 1, 0.0, 10.0, PENDULAR_AT(phantom.blur_voxels), "sd of the point spread"},
       {"phantom.noise", 1, 0.0, 5.0, PENDULAR_AT(phantom.noise), "white noise over the air–glass edge"},
@@ -122,6 +122,11 @@ const std::vector<StrainsKey>& strains_keys() {
 const std::vector<SwitchKey>& switch_keys() {
   static const std::vector<SwitchKey> keys = {
       {"contact.bond_friction_limit", [](Sample& s) -> bool& { return s.contact.bond_friction_limit; }},
+      {"observe.local_strain", [](Sample& s) -> bool& { return s.observe.local_strain; }},
+      {"observe.local_stress", [](Sample& s) -> bool& { return s.observe.local_stress; }},
+      {"observe.coordination", [](Sample& s) -> bool& { return s.observe.coordination; }},
+      {"observe.damage", [](Sample& s) -> bool& { return s.observe.damage; }},
+      {"observe.force_chains", [](Sample& s) -> bool& { return s.observe.force_chains; }},
   };
   return keys;
 }

@@ -69,8 +69,15 @@ struct Sample {
     double hold = 1e-3;                 ///< that time: the strain that would be made in it at the speed
     std::optional<double> hold_time;    ///< s; overrides `hold`
     double rows_per_strain = 5000.0;    ///< rows of curve.csv per unit strain
-    double frames = 20.0;               ///< frames written, evenly in strain
+    double frames = 20.0;               ///< frames written, evenly in strain; 0: none
   } compression;
+
+  /// What frames show beside where the beads are; `pendular render` wants all but the stress.
+  struct Observe {
+    bool local_strain = true, local_stress = true;  ///< of each bead's neighbourhood
+    bool coordination = true, damage = true;        ///< bonds and touching neighbours; share of bonds broken
+    bool force_chains = true;                       ///< normal force of each pair, and whether it is strong
+  } observe;
 
   struct Phantom {
     double voxel = 5e-6;              ///< m

@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "dem_core/checkpoint.h"
 #include "dem_core/forces.h"
+#include "dem_core/frame.h"
 #include "dem_core/lateral_strain.h"
 #include "dem_core/platen_program.h"
 #include "dem_core/quasi_static.h"
@@ -127,6 +128,7 @@ class Test {
   }
 
   void write_due_frames() {
+    if (sample_.compression.frames == 0.0) return;
     const double interval = sample_.compression.max_strain / sample_.compression.frames;
     if (state_.simulation.strain() >= interval * state_.frames_written) write_next_frame();
   }
@@ -135,14 +137,14 @@ class Test {
     const auto start = Clock::now();
     stepper_.store();
     write_frame(folder_ / "frames" / fmt::format("frame_{:04d}.vtp", state_.frames_written),
-                state_.simulation, ids_, last_stress());
+                state_.simulation, ids_, last_stress(), sample_.observe);
     ++state_.frames_written;
     output_seconds_ += seconds_since(start);
   }
 
   void finish() {
     if (state_.open_row.steps > 0) close_row();
-    write_next_frame();
+    if (sample_.compression.frames > 0.0) write_next_frame();
     state_.finished = true;
   }
 

@@ -5,9 +5,7 @@
 #include "dem_core/local_strain.h"
 #include "dem_core/quasi_static.h"
 #include "dem_core/shear_band.h"
-#include "dem_core/stress_field.h"
 #include "packing/neighbours.h"
-#include "packing/polydata.h"
 
 namespace pendular {
 namespace {
@@ -19,54 +17,6 @@ std::string mode(const BreakEvent& event) {
   if (normal < 0.1 * (normal + shear)) return "shear";
   if (event.stretch < 0.0) return "compression";
   return shear < 0.1 * (normal + shear) ? "tension" : "mixed";
-}
-
-std::vector<Vec3> in_um(const std::vector<Vec3>& points) {
-  std::vector<Vec3> scaled;
-  scaled.reserve(points.size());
-  for (const auto& point : points) scaled.push_back(kUm * point);
-  return scaled;
-}
-
-/// 1 where a pair pushes more than the mean of those that push, else 0.
-std::vector<std::int64_t> force_chain(const std::vector<double>& force) {
-  double sum = 0.0, count = 0.0;
-  for (double f : force)
-    if (f > 0.0) sum += f, count += 1.0;
-  std::vector<std::int64_t> in_chain;
-  for (double f : force) in_chain.push_back(f > 0.0 && f * count > sum);
-  return in_chain;
-}
-
-/// Standing bonds, broken bonds and touching pairs without a bond, as lines.
-void add_lines(PolyTable& table, const Simulation& simulation) {
-  std::vector<double> force;
-  std::vector<std::int64_t> state;
-  const auto add = [&](int i, int j, double normal, int kind) {
-    table.lines.push_back({i, j});
-    force.push_back(normal);
-    state.push_back(kind);
-  };
-  for (const auto& pair : simulation.pairs) {
-    const double apart_by = gap(simulation, pair);
-    if (pair.bond < 0 && apart_by > pair.properties.touch) continue;
-    add(pair.i, pair.j, normal_force(apart_by, pair.properties, simulation.law), pair.bond >= 0 ? 0 : 2);
-  }
-  for (const auto& bond : simulation.bonds)
-    if (bond.broken) add(bond.i, bond.j, 0.0, 1);
-  table.line_data = {{"normal_force_n", force}, {"state", state}, {"force_chain", force_chain(force)}};
-}
-
-std::vector<double> damage(const Simulation& simulation) {
-  std::vector<double> broken(simulation.beads.size()), all(simulation.beads.size());
-  for (const auto& bond : simulation.bonds)
-    for (int bead : {bond.i, bond.j}) {
-      all[bead] += 1.0;
-      if (bond.broken) broken[bead] += 1.0;
-    }
-  for (std::size_t k = 0; k < all.size(); ++k)
-    if (all[k] > 0.0) broken[k] /= all[k];
-  return broken;
 }
 
 /// Counted anew: pairs that have come apart since may no longer be listed.
@@ -176,47 +126,6 @@ void write_avalanches(const fs::path& path, const std::vector<Avalanche>& avalan
                         a.last_strain, a.breaks, a.energy, kUm * a.centre.x(), kUm * a.centre.y(),
                         kUm * a.centre.z(), kUm * a.extent);
   write_text(path, text);
-}
-
-void write_frame(const fs::path& path, const Simulation& simulation,
-                 const std::vector<std::int64_t>& bead_ids, double stress) {
-  const auto& beads = simulation.beads;
-  const std::size_t size = beads.size();
-  std::vector<Vec3> displacement(size);
-  std::vector<double> diameter(size), shear(size), volumetric(size), mean_stress(size), deviatoric(size);
-  const auto strains = local_strains(beads.start, beads.position, beads.radius);
-  const auto stresses =
-      stress_field(simulation, forces(simulation), beads.position, stress_field_reach(simulation));
-  for (std::size_t k = 0; k < size; ++k) {
-    displacement[k] = kUm * (beads.position[k] - beads.start[k]);
-    diameter[k] = kUm * 2.0 * beads.radius[k];
-    shear[k] = strains[k].shear;
-    volumetric[k] = strains[k].volumetric;
-    mean_stress[k] = pressure(stresses[k]);
-    deviatoric[k] = deviatoric_stress(stresses[k]);
-  }
-  const BeadContacts count = bead_contacts(simulation);
-  PolyTable table;
-  table.points = in_um(beads.position);
-  table.point_data = {{"bead_id", bead_ids},
-                      {"diameter_um", diameter},
-                      {"displacement_um", displacement},
-                      {"local_shear_strain", shear},
-                      {"local_volumetric_strain", volumetric},
-                      {"pressure_pa", mean_stress},
-                      {"deviatoric_stress_pa", deviatoric},
-                      {"coordination", std::vector<std::int64_t>(count.bonds.begin(), count.bonds.end())},
-                      {"touching", std::vector<std::int64_t>(count.touching.begin(), count.touching.end())},
-                      {"damage", damage(simulation)}};
-  add_lines(table, simulation);
-  table.number_fields = {{"strain", simulation.strain()},
-                         {"stress_pa", stress},
-                         {"platen_bottom_um", kUm * simulation.bottom.z},
-                         {"platen_top_um", kUm * simulation.top.z},
-                         {"specimen_diameter_um", kUm * std::sqrt(4.0 / M_PI * simulation.section)}};
-  table.text_fields = {{"units", "coordinates in um; SI or the unit in an array's name otherwise"},
-                       {"line_states", "0 bond, 1 broken bond, 2 contact without bond"}};
-  write_polydata(path, table);
 }
 
 nlohmann::ordered_json result_json(const RunState& state, const Sample& sample,

@@ -23,12 +23,6 @@ void write_events(const fs::path& path, const Simulation& simulation,
 void write_avalanches(const fs::path& path, const std::vector<Avalanche>& avalanches,
                       const Provenance& provenance);
 
-/// frames/frame_NNNN.vtp: beads with displacement, local strain and stress, coordination and damage; bonds
-/// and contacts with their normal force, and whether it is of the force chains: above the mean of all that
-/// push (Radjai et al. 1998, PRL 80, 61).
-void write_frame(const fs::path& path, const Simulation& simulation,
-                 const std::vector<std::int64_t>& bead_ids, double stress);
-
 /// result.json without the `performance` part, which alone differs between two runs of the same work.
 nlohmann::ordered_json result_json(const RunState& state, const Sample& sample, const Provenance& provenance);
 

@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "dem_core/avalanches.h"
 #include "dem_core/compress.h"
+#include "dem_core/frame.h"
+#include "dem_core/frame_observers.h"
 #include "dem_core/lateral_strain.h"
 #include "dem_core/quasi_static.h"
-#include "dem_core/run_folder.h"
 #include "dem_core/stepper.h"
 #include "dem_core/stress_field.h"
 #include "packing/polydata.h"
@@ -169,7 +171,7 @@ TEST(ForceChains, ArePairsThatPushMoreThanTheMean) {
   const Simulation simulation = at_rest();
   ScratchFolder folder;
   std::vector<std::int64_t> ids(simulation.beads.size());
-  write_frame(folder / "frame.vtp", simulation, ids, 0.0);
+  write_frame(folder / "frame.vtp", simulation, ids, 0.0, {});
   const PolyTable frame = read_polydata(folder / "frame.vtp");
   const auto force = numbers(frame, false, "normal_force_n", folder / "frame.vtp");
   const auto chain = integers(frame, false, "force_chain", folder / "frame.vtp");
@@ -186,6 +188,37 @@ TEST(ForceChains, ArePairsThatPushMoreThanTheMean) {
   EXPECT_EQ(numbers(frame, true, "pressure_pa", folder / "frame.vtp").size(), simulation.beads.size());
   for (double deviator : numbers(frame, true, "deviatoric_stress_pa", folder / "frame.vtp"))
     EXPECT_GE(deviator, 0.0);
+}
+
+/// Names of a frame's arrays.
+std::set<std::string> arrays(const Simulation& simulation, const Sample::Observe& observe) {
+  ScratchFolder folder;
+  std::vector<std::int64_t> ids(simulation.beads.size());
+  write_frame(folder / "frame.vtp", simulation, ids, 0.0, observe);
+  const PolyTable frame = read_polydata(folder / "frame.vtp");
+  std::set<std::string> names;
+  for (const auto* data : {&frame.point_data, &frame.line_data})
+    for (const auto& [name, array] : *data) names.insert(name);
+  return names;
+}
+
+TEST(FrameObservers, AreSwitchedOffOneByOne) {
+  const Simulation simulation = at_rest();
+  const auto all = arrays(simulation, {});
+  std::set<std::string> gone;
+  for (const auto& observer : frame_observers()) {
+    Sample::Observe observe;
+    observe.*observer.switched_on = false;
+    const auto left = arrays(simulation, observe);
+    EXPECT_LT(left.size(), all.size());
+    for (const auto& name : all) {
+      if (left.contains(name)) continue;
+      EXPECT_TRUE(gone.insert(name).second) << name << " has two switches";
+    }
+  }
+  std::set<std::string> always = all;
+  for (const auto& name : gone) always.erase(name);
+  EXPECT_EQ(always, (std::set<std::string>{"bead_id", "diameter_um", "displacement_um", "state"}));
 }
 
 }  // namespace
