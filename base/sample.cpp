@@ -57,6 +57,10 @@ const std::vector<NumberKey>& number_keys() {
        "rate of the stress ramp where control is \"stress\"; the platen goes no faster than the speed"},
       {"compression.max_stress_pa", 1, tiny, inf, PENDULAR_OPTIONAL(compression.max_stress),
        "stress at which the run ends"},
+      {"compression.relax_increment", 1, 1e-6, 0.01, PENDULAR_AT(compression.relax_increment),
+       "strain of an increment where control is \"relaxation\""},
+      {"compression.relax_to", 1, 1e-9, 0.1, PENDULAR_AT(compression.relax_to),
+       "mean net force over mean force of a pair that counts as rest"},
       {"compression.hold", 1, 0.0, 0.5, PENDULAR_AT(compression.hold),
        "time of a hold: the strain that would be made in it at the speed"},
       {"compression.hold_s", 1, 0.0, 1e6, PENDULAR_OPTIONAL(compression.hold_time), "time of a hold"},
@@ -105,7 +109,7 @@ const std::vector<WordKey>& word_keys() {
        {"one", "two"},
        [](Sample& s) -> std::string& { return s.contact.tangential_springs; }},
       {"compression.control",
-       {"speed", "stress"},
+       {"speed", "stress", "relaxation"},
        [](Sample& s) -> std::string& { return s.compression.control; }},
   };
   return keys;

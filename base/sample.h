@@ -60,7 +60,10 @@ struct Sample {
   struct Compression {
     double speed = 1e-4;                ///< platen speed over D √(k_glass/m)
     std::optional<double> speed_si;     ///< m/s; overrides `speed`
-    std::string control = "speed";      ///< of the moving platen: "speed", or "stress": a ramp of stress
+    std::string control = "speed";      ///< of the moving platen: "speed"; "stress": a ramp of stress;
+                                        ///< "relaxation": increments, the specimen at rest after each
+    double relax_increment = 1e-3;      ///< strain of an increment
+    double relax_to = 1e-3;             ///< unbalanced force that counts as rest
     std::optional<double> stress_rate;  ///< of that ramp, Pa/s
     std::optional<double> max_stress;   ///< stress at which the run ends, Pa
     double max_strain = 0.10;           ///< engineering strain at which the run ends

@@ -107,13 +107,14 @@ template <typename Archive>
 void visit(Archive& a, Simulation& s) {
   fields(a, s.law, s.dt, s.steps, s.beads, s.pairs, s.bonds, s.bottom, s.top, s.initial_height, s.section,
          s.listing.at, s.listing.margin, s.listing.bottom_at, s.listing.top_at, s.listing.platen_margin,
-         s.events, s.work.platen, s.work.damped, s.work.slipped, s.work.broken);
+         s.events, s.work.platen, s.work.damped, s.work.slipped, s.work.broken, s.work.halted);
 }
 
 template <typename Archive>
 void visit(Archive& a, CurveRow& r) {
   fields(a, r.strain, r.stress, r.stress_bottom, r.broken_bonds, r.kinetic, r.elastic, r.work, r.damped,
-         r.slipped, r.released, r.coordination, r.lateral_strain, r.inertial_number, r.unbalanced_force);
+         r.slipped, r.released, r.halted, r.coordination, r.lateral_strain, r.inertial_number,
+         r.unbalanced_force);
 }
 
 template <typename Archive>

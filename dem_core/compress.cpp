@@ -12,6 +12,7 @@
 #include "dem_core/lateral_strain.h"
 #include "dem_core/platen_program.h"
 #include "dem_core/quasi_static.h"
+#include "dem_core/relaxation.h"
 #include "dem_core/run_folder.h"
 #include "dem_core/specimen_check.h"
 #include "dem_core/stepper.h"
@@ -61,8 +62,9 @@ class Test {
   double output_seconds() const { return output_seconds_; }
 
   void step() {
-    Simulation& s = state_.simulation;
     write_due_frames();
+    if (sample_.compression.control == "relaxation") return relax();
+    Simulation& s = state_.simulation;
     program_.drive(s, state_.platen);
     stepper_.step();
     require_finite();
@@ -75,6 +77,21 @@ class Test {
   }
 
  private:
+  /// An increment and its row. Interrupted on its way it leaves the state as it was before.
+  void relax() {
+    const RunState before = state_;
+    Simulation& s = state_.simulation;
+    const auto& asked = sample_.compression;
+    if (!compress_and_relax(s, stepper_, {asked.relax_increment, asked.relax_to})) {
+      state_ = before;
+      return stepper_.load();
+    }
+    require_finite();
+    state_.open_row = {s.strain(), s.top.force, s.bottom.force, 1};
+    close_row();
+    if (program_.ended(s, state_.platen, last_stress())) finish();
+  }
+
   void close_row() {
     stepper_.store();
     const Simulation& s = state_.simulation;
@@ -92,6 +109,7 @@ class Test {
     row.damped = s.work.damped;
     row.slipped = s.work.slipped;
     row.released = s.work.broken;
+    row.halted = s.work.halted;
     row.coordination =
         2.0 * static_cast<double>(s.bonds.size() - s.events.size()) / static_cast<double>(s.beads.size());
     row.lateral_strain = lateral_strain(s);

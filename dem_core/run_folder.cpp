@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "dem_core/local_strain.h"
 #include "dem_core/quasi_static.h"
 #include "dem_core/shear_band.h"
@@ -77,16 +79,29 @@ nlohmann::ordered_json quasi_static_json(const std::vector<CurveRow>& rows) {
        {{"inertial_number", kQuasiStaticInertialNumber}, {"unbalanced_force", kQuasiStaticUnbalancedForce}}}};
 }
 
+/// Of a quasi-static test: its increments, and those that would not come to rest.
+nlohmann::ordered_json relaxation_json(const std::vector<CurveRow>& rows,
+                                       const Sample::Compression& compression) {
+  const auto restless = std::count_if(rows.begin(), rows.end(), [&](const CurveRow& row) {
+    return row.unbalanced_force > compression.relax_to;
+  });
+  return {{"increment", compression.relax_increment},
+          {"rest", compression.relax_to},
+          {"increments", rows.size()},
+          {"not_at_rest", restless}};
+}
+
 nlohmann::ordered_json work_balance_json(const Simulation& simulation) {
   const Energies now = energies(simulation);
   const Work& work = simulation.work;
-  const double found = now.elastic + now.kinetic + work.damped + work.slipped + work.broken;
+  const double found = now.elastic + now.kinetic + work.damped + work.slipped + work.broken + work.halted;
   return {{"platen_j", work.platen},
           {"elastic_j", now.elastic},
           {"kinetic_j", now.kinetic},
           {"damped_j", work.damped},
           {"slipped_j", work.slipped},
           {"released_by_breaking_j", work.broken},
+          {"halted_j", work.halted},
           {"relative_error", work.platen != 0.0 ? (work.platen - found) / work.platen : 0.0}};
 }
 
@@ -97,12 +112,15 @@ void write_curve(const fs::path& path, const std::vector<CurveRow>& rows, const 
   text +=
       "strain,stress_pa,stress_bottom_pa,broken_bonds,kinetic_energy_j,elastic_energy_j,platen_work_j,damped_"
       "j,"
-      "slipped_j,released_by_breaking_j,bonds_per_bead,lateral_strain,inertial_number,unbalanced_force\n";
+      "slipped_j,released_by_breaking_j,bonds_per_bead,lateral_strain,inertial_number,unbalanced_force,"
+      "halted_j\n";
   for (const auto& r : rows)
     text += fmt::format(
-        "{:.9g},{:.9g},{:.9g},{:.0f},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.6g},{:.9g},{:.6g},{:.6g}\n",
+        "{:.9g},{:.9g},{:.9g},{:.0f},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.6g},{:.9g},{:.6g},{:.6g},{:"
+        ".9g}\n",
         r.strain, r.stress, r.stress_bottom, r.broken_bonds, r.kinetic, r.elastic, r.work, r.damped,
-        r.slipped, r.released, r.coordination, r.lateral_strain, r.inertial_number, r.unbalanced_force);
+        r.slipped, r.released, r.coordination, r.lateral_strain, r.inertial_number, r.unbalanced_force,
+        r.halted);
   write_text(path, text);
 }
 
@@ -136,6 +154,8 @@ nlohmann::ordered_json result_json(const RunState& state, const Sample& sample,
   json["shear_band"] = shear_band_json(simulation, mean_diameter);
   json["work_balance"] = work_balance_json(simulation);
   json["quasi_static"] = quasi_static_json(state.rows);
+  if (sample.compression.control == "relaxation")
+    json["relaxation"] = relaxation_json(state.rows, sample.compression);
   json["broken_bonds"] = simulation.events.size();
   json["beads"] = simulation.beads.size();
   json["bonds"] = simulation.bonds.size();

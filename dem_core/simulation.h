@@ -49,6 +49,7 @@ struct BreakEvent {
 struct Work {
   double platen = 0.0;  ///< done by the platens
   double damped = 0.0, slipped = 0.0, broken = 0.0;
+  double halted = 0.0;  ///< taken out by bringing beads to rest, in quasi-static tests
 };
 
 /// For which places the list of pairs holds: as long as no bead and no platen has moved by more than its

@@ -270,6 +270,46 @@ void Stepper::step() {
   load();
 }
 
+double Stepper::kinetic_energy() const {
+  double energy = 0.0;
+  for (std::size_t row = 0; row < beads_.size; ++row) {
+    const double* bead = &beads_.rows[kBeadRow * row];
+    energy += 0.5 * simulation_.dt * get(bead + 4).squaredNorm() / bead[7];
+    energy += 0.5 * simulation_.dt * get(bead + 8).squaredNorm() / beads_.step_over_inertia[row];
+  }
+  return energy;
+}
+
+// Positions are one step ahead of what pairs remember: a velocity that is taken or given takes or gives the
+// displacement of one step with it. Of a step in which the platen sets out or stops it moves half.
+void Stepper::halt() {
+  Platen& platen = simulation_.bottom;
+  simulation_.work.platen -= 0.5 * simulation_.dt * platen.force * platen.velocity;
+  simulation_.work.halted += kinetic_energy();
+  platen.z -= simulation_.dt * platen.velocity;
+  platen.velocity = 0.0;
+  for (std::size_t row = 0; row < beads_.size; ++row) {
+    double* bead = &beads_.rows[kBeadRow * row];
+    put(bead, get(bead) - simulation_.dt * get(bead + 4));
+    put(bead + 4, Vec3::Zero());
+    put(bead + 8, Vec3::Zero());
+  }
+}
+
+void Stepper::set_in_motion(double speed, const std::function<Vec3(const Vec3&)>& velocity) {
+  Platen& platen = simulation_.bottom;
+  platen.velocity = speed;
+  simulation_.work.platen += 0.5 * simulation_.dt * platen.force * speed;
+  platen.z += simulation_.dt * speed;
+  for (std::size_t row = 0; row < beads_.size; ++row) {
+    double* bead = &beads_.rows[kBeadRow * row];
+    const Vec3 v = velocity(get(bead));
+    put(bead + 4, v);
+    put(bead, get(bead) + simulation_.dt * v);
+  }
+  simulation_.work.halted -= kinetic_energy();
+}
+
 /// A chunk's pairs read and add to its own beads and those of its targets, so a chunk's beads may move when
 /// all that have it as a target are done.
 void Stepper::advance_chunk(std::size_t c) {

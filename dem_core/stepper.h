@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <vector>
 
 #include "base/parallel.h"
@@ -27,8 +28,21 @@ class Stepper {
   /// Writes beads and pairs back to the simulation.
   void store();
 
- private:
+  /// Reads the simulation anew, where it was changed from outside.
   void load();
+
+  /// Of all beads, J.
+  double kinetic_energy() const;
+
+  /// Brings all beads and the moving platen to rest as if the last step had found them so: at the places that
+  /// pairs remember. Books what that takes as Work::halted.
+  void halt();
+
+  /// Gives the moving platen a speed (m/s) and the beads, at rest, the velocity of a field over their places,
+  /// as if the last step had done so. Books what that brings as Work::halted, negative.
+  void set_in_motion(double platen, const std::function<Vec3(const Vec3&)>& velocity);
+
+ private:
   void order_beads();
   void load_beads();
   void cut_chunks();
