@@ -49,8 +49,9 @@ SpringNetwork::SpringNetwork(std::vector<double> radius, std::vector<NetworkSpri
   ends_.resize(2 * springs_.size());
   std::vector<int> next(first_end_.begin(), first_end_.end() - 1);
   for (int s = 0; s < static_cast<int>(springs_.size()); ++s) {
-    ends_[next[springs_[s].i]++] = {s, true};
-    ends_[next[springs_[s].j]++] = {s, false};
+    const NetworkSpring& p = springs_[s];
+    ends_[next[p.i]++] = {p.j, s, p.n, p.arm_i, p.arm_j, p.normal, p.tangential};
+    ends_[next[p.j]++] = {p.i, s, -p.n, p.arm_j, p.arm_i, p.normal, p.tangential};
   }
 }
 
@@ -63,19 +64,21 @@ void SpringNetwork::multiply(const NodeVector& x, NodeVector& out) const {
   // Each node works out the forces of its own springs: twice the arithmetic, but nothing to share or to keep.
   for_blocks(radius_.size(), kNodeBlock, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
+      const int node = static_cast<int>(k);
+      const Vec3 here = shift(x, node), turned = turn(x, node);
       Vec3 force = Vec3::Zero(), torque = Vec3::Zero(), moment = Vec3::Zero();
       for (int e = first_end_[k]; e < first_end_[k + 1]; ++e) {
-        const NetworkSpring& s = springs_[ends_[e].spring];
-        const double sign = ends_[e].first ? 1.0 : -1.0;
-        const Vec3 on_i = along_and_across(relative(s, x), s.n, s.normal, s.tangential);
-        force += sign * on_i;
-        torque -= (ends_[e].first ? s.arm_i : s.arm_j) * s.n.cross(on_i);
+        const End& end = ends_[e];
+        const Vec3 moved =
+            here - shift(x, end.other) + end.n.cross(end.arm * turned + end.other_arm * turn(x, end.other));
+        force += along_and_across(moved, end.n, end.normal, end.tangential);
+        torque -= (end.arm * end.tangential) * end.n.cross(moved);
         if (bending_)
-          moment += sign * along_and_across(turn(x, s.i) / radius_[s.i] - turn(x, s.j) / radius_[s.j], s.n,
-                                            s.twist, s.bend);
+          moment += along_and_across(turned / radius_[k] - turn(x, end.other) / radius_[end.other], end.n,
+                                     springs_[end.spring].twist, springs_[end.spring].bend);
       }
-      out.segment<3>(6 * static_cast<Eigen::Index>(k)) = force;
-      out.segment<3>(6 * static_cast<Eigen::Index>(k) + 3) = torque + moment / radius_[k];
+      out.segment<3>(6 * node) = force;
+      out.segment<3>(6 * node + 3) = torque + moment / radius_[k];
     }
   });
 }
@@ -120,8 +123,7 @@ bool SpringNetwork::spans() const {
     const int node = waiting.back();
     waiting.pop_back();
     for (int e = first_end_[node]; e < first_end_[node + 1]; ++e) {
-      const NetworkSpring& s = springs_[ends_[e].spring];
-      const int other = ends_[e].first ? s.j : s.i;
+      const int other = ends_[e].other;
       if (!seen[other]) waiting.push_back(other);
       seen[other] = 1;
     }

@@ -52,14 +52,16 @@ class SpringNetwork {
   bool spans() const;
 
  private:
+  /// A spring as one of its nodes sees it, with n towards that node: the same law from either side.
   struct End {
-    int spring;
-    bool first;
+    int other, spring;
+    Vec3 n;
+    double arm, other_arm, normal, tangential;
   };
   std::vector<double> radius_;
   std::vector<NetworkSpring> springs_;
   std::vector<int> first_end_;  ///< node → its first place in ends_
-  std::vector<End> ends_;
+  std::vector<End> ends_;       ///< node by node
   bool bending_ = false;
 };
 
