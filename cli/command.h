@@ -36,6 +36,7 @@ void add_segment(CLI::App& app);
 void add_pack(CLI::App& app);
 void add_bridge(CLI::App& app);
 void add_compress(CLI::App& app);
+void add_modulus(CLI::App& app);
 void add_render(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_pipette(CLI::App& app);

@@ -19,6 +19,7 @@ void add_commands(CLI::App& app) {
   add_pack(app);
   add_bridge(app);
   add_compress(app);
+  add_modulus(app);
   add_render(app);
   add_convert(app);
   add_pipette(app);

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "base/progress.h"
+#include "cli/command.h"
+#include "dem_core/compress.h"
+#include "dem_core/linear_response.h"
+#include "packing/vtp.h"
+
+namespace pendular::cli {
+namespace {
+
+struct Options {
+  Common common;
+  fs::path packing, sample;
+  double strain = 0.03;
+};
+
+nlohmann::ordered_json to_json(const ContactCount& count) {
+  return {{"bonds", count.bonds},
+          {"touching_pairs", count.touching},
+          {"beads_on_bottom_platen", count.bottom},
+          {"beads_on_top_platen", count.top},
+          {"sliding", count.sliding},
+          {"breaking_bonds", count.breaking}};
+}
+
+nlohmann::ordered_json to_json(const LinearResponse& response, const Simulation& simulation, double strain) {
+  return {
+      {"linear_modulus_pa", response.modulus},
+      {"poisson_ratio", response.poisson_ratio},
+      {"strain", strain},
+      {"stress_pa", response.stress},
+      {"contacts", to_json(response.contacts)},
+      {"holds", response.holds()},
+      {"reasons", response.reasons},
+      {"effect_on_modulus", {{"sliding", response.sliding_effect}, {"carried_load", response.load_effect}}},
+      {"search", {{"rounds", response.rounds}, {"unsettled_contacts", response.unsettled}}},
+      {"solver", {{"iterations", response.iterations}, {"residual", response.residual}}},
+      {"beads", simulation.beads.size()},
+      {"specimen",
+       {{"height_um", 1e6 * simulation.initial_height}, {"section_mm2", 1e6 * simulation.section}}}};
+}
+
+std::string in_words(const LinearResponse& response, double strain) {
+  std::string text = fmt::format("E = {:.2f} MPa at {:.2f} % of platen strain, Poisson ratio {:.3f}",
+                                 1e-6 * response.modulus, 100.0 * strain, response.poisson_ratio);
+  for (const auto& reason : response.reasons) text += "\n  does not hold strictly: " + reason;
+  return text;
+}
+
+void run(const Options& options) {
+  apply(options.common);
+  require_writable(options.common.out);
+  const Sample sample = read_sample(options.sample);
+  const Packing packing = realise(read_packing(options.packing), sample, options.common.seed);
+  const Simulation simulation = build_simulation(packing, sample);
+  const LinearResponse response = linear_response(simulation, {options.strain});
+  auto json = to_json(response, simulation, options.strain);
+  json["provenance"] = to_json(provenance(options.common, {options.packing, options.sample}));
+  write_text(options.common.out, json.dump(2) + "\n");
+  say(in_words(response, options.strain));
+}
+
+}  // namespace
+
+void add_modulus(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand(
+      "modulus",
+      "Young's modulus and Poisson ratio of a packing as a linear network of springs, without a DEM run,\n"
+      "with the contacts that are closed at a strain of the platens, and whether the DEM may differ.");
+  command->add_option("packing", options->packing, "packing.vtp")->required();
+  command->add_option("--sample", options->sample, "Sample file (TOML)")->required();
+  command
+      ->add_option("--strain", options->strain, "Platen strain from first touch at which contacts are closed")
+      ->check(CLI::Range(1e-6, 0.2))
+      ->capture_default_str();
+  add_common(*command, options->common, "Result (.json)");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace pendular::cli
