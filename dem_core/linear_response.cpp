@@ -205,9 +205,8 @@ LinearResponse linear_response(const Simulation& simulation, const LinearRespons
   LinearResponse response;
   if (options.strain) {
     Simulation specimen = simulation;
-    // Further pairs may come to touch: local strains are several times the specimen's.
-    specimen.skin *= 1.0 + 20.0 * *options.strain;
-    list_pairs(specimen);
+    // Local strains are several times the specimen's.
+    list_pairs(specimen, (0.025 + 0.5 * *options.strain) * specimen.beads.mean_diameter());
     Problem problem = problem_of(specimen, *options.strain * specimen.initial_height);
     find_closures(problem, *options.strain, options.most_rounds, response);
     solve_tangent(problem, response);

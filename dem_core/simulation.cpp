@@ -139,22 +139,22 @@ double time_step(const Simulation& simulation, double fraction) {
 }
 
 /// Of a body at this speed.
-double margin(double speed, double dt, double diameter) {
-  return std::clamp(kStepsBetweenListings * dt * speed, kLeastMargin * diameter, kLargestMargin * diameter);
+double margin(double speed, double dt, double diameter, double least) {
+  return std::max(least, std::clamp(kStepsBetweenListings * dt * speed, kLeastMargin * diameter,
+                                    kLargestMargin * diameter));
 }
 
-Listing listing_of(const Simulation& simulation) {
+Listing listing_of(const Simulation& simulation, double least) {
   const auto& beads = simulation.beads;
   const double diameter = beads.mean_diameter();
   Listing listing;
   listing.at = beads.position;
   for (const auto& velocity : beads.velocity)
-    listing.margin.push_back(margin(velocity.norm(), simulation.dt, diameter));
+    listing.margin.push_back(margin(velocity.norm(), simulation.dt, diameter, least));
   listing.bottom_at = simulation.bottom.z;
   listing.top_at = simulation.top.z;
-  listing.platen_margin =
-      margin(std::max(std::fabs(simulation.bottom.velocity), std::fabs(simulation.top.velocity)),
-             simulation.dt, diameter);
+  const double speed = std::max(std::fabs(simulation.bottom.velocity), std::fabs(simulation.top.velocity));
+  listing.platen_margin = margin(speed, simulation.dt, diameter, least);
   return listing;
 }
 
@@ -190,9 +190,9 @@ Simulation build_simulation(const Packing& packing, const Sample& sample) {
   return simulation;
 }
 
-void list_pairs(Simulation& simulation) {
+void list_pairs(Simulation& simulation, double least) {
   const auto& beads = simulation.beads;
-  simulation.listing = listing_of(simulation);
+  simulation.listing = listing_of(simulation, least);
   std::vector<double> reach;
   for (std::size_t k = 0; k < beads.size(); ++k)
     reach.push_back(2.0 * (beads.radius[k] + simulation.listing.margin[k]));

@@ -96,8 +96,8 @@ Simulation build_simulation(const Packing& packing, const Sample& sample);
 double platen_speed(const Sample& sample);
 
 /// Lists anew the pairs that may touch while no bead moves by more than its margin; histories and bonds are
-/// kept.
-void list_pairs(Simulation& simulation);
+/// kept. No margin is smaller than `least` (m).
+void list_pairs(Simulation& simulation, double least = 0.0);
 
 Energies energies(const Simulation& simulation);
 
