@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdlib>
 #include <map>
 
 #include "base/error.h"
@@ -77,7 +78,8 @@ namespace {
 /// one.
 double exact_number(const NumberKey& key, double in_unit, const Sample& sample) {
   const double below = std::nextafter(in_unit, 0.0), above = std::nextafter(in_unit, HUGE_VAL);
-  for (const double candidate : {in_unit, below, above}) {
+  const double plain = std::strtod(fmt::format("{:.15g}", in_unit).c_str(), nullptr);
+  for (const double candidate : {plain, in_unit, below, above}) {
     if (!(candidate >= key.lowest && candidate <= key.highest)) continue;
     Sample again = sample;
     key.set(again, candidate, key.name);

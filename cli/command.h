@@ -38,6 +38,8 @@ void add_bridge(CLI::App& app);
 void add_compress(CLI::App& app);
 void add_render(CLI::App& app);
 void add_convert(CLI::App& app);
+void add_sweep(CLI::App& app);
+void add_sweep_run(CLI::App& app);  // the process of one run; not for users
 void add_pipette(CLI::App& app);
 
 }  // namespace pendular::cli
