@@ -79,25 +79,14 @@ class Arrays {
 
   /// Records as failed what has left the queue without a result.
   void find_lost(const std::vector<RunRecord>& open) {
-    const auto answer = ask_shell("squeue --noheader --array --me --format='%F_%K'");
-    if (answer.status != 0) {  // the scheduler may be back later; what it runs goes on
-      if (!told_) warn("squeue gives no answer, asking again: " + first_line(answer.text));
-      told_ = true;
-      return;
-    }
-    std::set<Task> queued;
-    std::istringstream words(answer.text);
-    for (std::string word; words >> word;) queued.insert(word);
+    const auto queue = queued();
+    if (!queue) return;
     for (const auto& record : open) {
       const auto task = task_of_.find(record.hash);
       if (task == task_of_.end()) continue;
       int& gone = gone_for_[record.hash];
-      gone = queued.count(task->second) ? 0 : gone + 1;
-      if (gone < kGoneFor) continue;
-      const std::string words_left = last_words(store_, record.hash);
-      store_.fail(record.hash, 4,
-                  fmt::format("lost by the scheduler: job {} has left the queue without a result{}",
-                              task->second, words_left.empty() ? "" : "; it last said: " + words_left));
+      gone = queue->count(task->second) ? 0 : gone + 1;
+      if (gone >= kGoneFor) book_loss(record.hash, task->second);
     }
   }
 
@@ -107,6 +96,30 @@ class Arrays {
   }
 
  private:
+  /// The tasks that wait or run; nothing where the scheduler gives no answer: it may be back later, and what
+  /// it runs goes on.
+  std::optional<std::set<Task>> queued() {
+    const auto answer = ask_shell("squeue --noheader --array --me --format='%F_%K'");
+    if (answer.status != 0) {
+      if (!told_) warn("squeue gives no answer, asking again: " + first_line(answer.text));
+      told_ = true;
+      return std::nullopt;
+    }
+    std::set<Task> tasks;
+    std::istringstream words(answer.text);
+    for (std::string word; words >> word;) tasks.insert(word);
+    return tasks;
+  }
+
+  void book_loss(const std::string& hash, const Task& task) {
+    const RunStatus status = store_.record(hash).status;
+    if (status == RunStatus::done || status == RunStatus::failed) return;  // it ended just now
+    const std::string words = last_words(store_, hash);
+    store_.fail(hash, 4,
+                fmt::format("lost by the scheduler: job {} has left the queue without a result{}", task,
+                            words.empty() ? "" : "; it last said: " + words));
+  }
+
   Store& store_;
   const ExecuteOptions& options_;
   std::vector<std::string> jobs_;
