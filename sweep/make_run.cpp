@@ -76,6 +76,14 @@ Packing start_packing(const Store& store, const RunRequest& request) {
   return packing;
 }
 
+/// Temporary files that a killed process has left.
+void remove_leftovers(const fs::path& folder) {
+  std::vector<fs::path> leftovers;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().filename().string().starts_with('.')) leftovers.push_back(entry.path());
+  for (const auto& path : leftovers) fs::remove(path);
+}
+
 /// Books a run whose folder has its final name.
 void book(Store& store, const std::string& hash, const RunRequest& request,
           const std::optional<Effort>& effort) {
@@ -88,10 +96,13 @@ void book(Store& store, const std::string& hash, const RunRequest& request,
 
 void make(Store& store, const std::string& hash) {
   const RunRequest request = store.request(hash);
+  if (content_hash(request) != hash)
+    bad_input("run {}: was asked for by another version of pendular, this is {}", hash, program_version());
   const fs::path final_folder = store.run_folder(hash), folder = store.part_folder(hash);
   if (fs::exists(final_folder)) return book(store, hash, request, std::nullopt);
   make_folder(folder);
   write_text(folder / "request.json", request_text(request));
+  write_text(folder / "sample.toml", sample_text(request.sample));
 
   CompressOptions options;
   options.resume = true;
@@ -108,6 +119,7 @@ void make(Store& store, const std::string& hash) {
   effort.threads = static_cast<int>(thread_count());
   result.erase("performance");  // the only part that differs between two runs of the same work
   write_text(folder / "result.json", result.dump(2) + "\n");
+  remove_leftovers(folder);
   fs::rename(folder, final_folder);
   book(store, hash, request, effort);
 }

@@ -21,7 +21,7 @@ Sample sample_at(const std::string& text, const SweepFile& file, const Plan::Run
   Sample sample = parse_sample(text, where, settings);
   if (!content) return sample;
   set_polymer_content(sample, *content);
-  return parse_sample(sample_text(sample), where);  // checked again, with its new diameter
+  return parse_sample("", where, sample_settings(sample));  // checked again, with its new diameter
 }
 
 /// The values of one point, from its number; the last axis is the fastest.

@@ -24,17 +24,31 @@ PackingSource generated_packing(std::uint64_t seed) {
   return source;
 }
 
+namespace {
+
+SampleValue value_of(const nlohmann::json& json) {
+  if (json.is_number()) return json.get<double>();
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_string()) return json.get<std::string>();
+  return json.get<std::vector<double>>();
+}
+
+}  // namespace
+
 std::string request_text(const RunRequest& request) {
   nlohmann::ordered_json packing;
   if (request.packing.sha256.empty())
     packing["seed"] = request.packing.seed;
   else
     packing["sha256"] = request.packing.sha256;
+  nlohmann::ordered_json sample;
+  for (const auto& [key, value] : sample_settings(request.sample))
+    std::visit([&, name = key](const auto& held) { sample[name] = held; }, value);
   const nlohmann::ordered_json json = {{"version", program_version()},
                                        {"packing", packing},
                                        {"seed", request.seed},
                                        {"keep", request.keep_all ? "all" : "curve"},
-                                       {"sample", sample_text(request.sample)}};
+                                       {"sample", sample}};
   return json.dump(2) + "\n";
 }
 
@@ -42,7 +56,9 @@ RunRequest parse_request(const std::string& text, const std::string& where) {
   try {
     const auto json = nlohmann::json::parse(text);
     RunRequest request;
-    request.sample = parse_sample(json.at("sample").get<std::string>(), where);
+    std::vector<SampleSetting> settings;
+    for (const auto& [key, value] : json.at("sample").items()) settings.emplace_back(key, value_of(value));
+    request.sample = parse_sample("", where, settings);
     request.packing.sha256 = json.at("packing").value("sha256", "");
     request.packing.seed = json.at("packing").value("seed", std::uint64_t{1});
     request.seed = json.at("seed").get<std::uint64_t>();

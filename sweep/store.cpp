@@ -127,20 +127,20 @@ std::size_t Store::enter_run_folders() {
 }
 
 std::vector<std::string> Store::add(std::span<const RunRequest> requests) {
-  std::vector<std::string> hashes;
-  std::set<std::string> packings;
-  Transaction transaction(index_);
+  std::vector<std::string> hashes, texts;
   for (const auto& request : requests) {
-    const std::string text = request_text(request);
-    const std::string& hash = hashes.emplace_back(sha256(text));
-    index_.run("INSERT OR IGNORE INTO runs (hash, status, request) VALUES (?, 'waiting', ?)", {hash, text});
-    if (!fs::exists(run_folder(hash)))
-      index_.run("UPDATE runs SET status = 'waiting' WHERE hash = ? AND status = 'done'", {hash});
+    hashes.push_back(sha256(texts.emplace_back(request_text(request))));
     const auto& packing = request.packing;
-    if (packing.sha256.empty() || !packings.insert(packing.sha256).second) continue;
-    if (!fs::exists(packing_path(packing.sha256)))
+    if (!packing.sha256.empty() && !fs::exists(packing_path(packing.sha256)))
       write_atomically(packing_path(packing.sha256),
                        [&](const fs::path& copy) { fs::copy_file(packing.file, copy); });
+  }
+  Transaction transaction(index_);
+  for (std::size_t k = 0; k < hashes.size(); ++k) {
+    index_.run("INSERT OR IGNORE INTO runs (hash, status, request) VALUES (?, 'waiting', ?)",
+               {hashes[k], texts[k]});
+    if (!fs::exists(run_folder(hashes[k])))
+      index_.run("UPDATE runs SET status = 'waiting' WHERE hash = ? AND status = 'done'", {hashes[k]});
   }
   transaction.commit();
   return hashes;

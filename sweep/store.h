@@ -41,7 +41,7 @@ struct Effort {
 
 /// A folder of runs, each once under the hash of its content:
 ///   index.sqlite         table `runs`, one row per run
-///   runs/HASH/           a finished run, with the request it answers (request.json)
+///   runs/HASH/           a finished run, with its request (request.json) and sample (sample.toml)
 ///   runs/HASH.part/      one that is being made, was stopped, or failed (failed.json)
 ///   packings/HASH.vtp    the beads that runs start from
 ///   logs/HASH.txt        what its worker said
