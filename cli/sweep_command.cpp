@@ -86,13 +86,14 @@ std::string failures(const std::vector<sweep::RunOutcome>& outcomes) {
                      outcomes.size(), told);
 }
 
-std::vector<sweep::RunOutcome> make_runs(const Options& options, const sweep::Plan& plan) {
+std::vector<sweep::RunOutcome> make_runs(const Options& options, const std::string& name,
+                                         const sweep::Plan& plan) {
   sweep::Store store(options.store_folder());
   sweep::ExecuteOptions how;
   how.cores = options.common.threads;
   how.retry_failed = options.retry_failed;
   if (options.executor == "slurm") how.slurm = sweep::SlurmOptions{options.slurm_options};
-  Progress progress("sweep", 1.0);
+  Progress progress(name, 1.0);
   how.progress = [&](std::size_t done, std::size_t failed, std::size_t total) {
     progress.update(static_cast<double>(done + failed) / static_cast<double>(total),
                     fmt::format("{} of {} runs, {} failed", done + failed, total, failed));
@@ -114,10 +115,11 @@ void run(const Options& options) {
   Provenance from = provenance(options.common, inputs);
   from.seed = file.seed;
 
-  const auto outcomes = make_runs(options, plan);
+  const auto outcomes = make_runs(options, file.name, plan);
   sweep::write_tables(options.common.out, plan, outcomes, from);
   if (const std::string failed = failures(outcomes); !failed.empty()) throw ComputationFailed(failed);
-  say(fmt::format("{} runs done: {}", outcomes.size(), (options.common.out / "summary.csv").string()));
+  say(fmt::format("{}: {} runs done, {}", file.name, outcomes.size(),
+                  (options.common.out / "summary.csv").string()));
 }
 
 struct RunOptions {

@@ -69,6 +69,8 @@ Packing start_packing(const Store& store, const RunRequest& request) {
     packing.provenance = {program_version(), "pendular sweep: packing " + name, request.packing.seed, {}};
     write_packing(path, packing);
   }
+  if (!generated && sha256_of(path) != name)
+    bad_input("{}: is not the packing that it was, remove it; the sweep copies it anew", path.string());
   Packing packing = read_packing(path);
   if (generated)
     packing.bridges =

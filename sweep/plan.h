@@ -18,7 +18,7 @@ struct Axis {
 
 /// What a sweep file asks for.
 struct SweepFile {
-  std::string name;
+  std::string name = "sweep";  ///< shown with progress
   fs::path sample;
   fs::path packing;        ///< empty: generated
   std::uint64_t seed = 1;  ///< of the first realisation; the others follow

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "base/csv.h"
 #include "program.h"
@@ -53,6 +54,27 @@ TEST(SweepCommand, TablesHoldRunsAndTheirMeans) {
   EXPECT_NEAR(points.numbers("peak_stress_pa_sd")[1], std::fabs(peaks[2] - peaks[3]) / std::sqrt(2.0), 1e-3);
   EXPECT_NEAR(points.numbers("peak_stress_pa_standard_error")[1], 0.5 * std::fabs(peaks[2] - peaks[3]), 1e-3);
   EXPECT_EQ(points.integers("peak_stress_pa_n"), (std::vector<long long>{2, 2}));
+}
+
+TEST(SweepCommand, OfAPackingFileItIsWhatCompressMakes) {
+  ScratchFolder folder;
+  write_sweep(folder.path(), "packing = \"p.vtp\"\nseed = 4\nrealisations = 2\n");
+  ASSERT_EQ(shell(folder.path(), "$P pack --generate --sample s.toml -o p.vtp --seed 9").status, 0);
+  const auto swept = shell(folder.path(), "$P sweep sweep.toml -o out");
+  ASSERT_EQ(swept.status, 0) << swept.errors;
+  ASSERT_EQ(shell(folder.path(), "$P compress p.vtp --sample s.toml --seed 5 -o run").status, 0);
+  const auto modulus =
+      nlohmann::json::parse(content(folder / "run" / "result.json"))["linear_modulus_pa"]["value"]
+          .get<double>();
+  EXPECT_EQ(read_csv(folder / "out" / "results.csv", {"linear_modulus_pa"}).numbers("linear_modulus_pa")[1],
+            modulus);
+
+  // The store's copy is checked when it is used.
+  for (const auto& entry : fs::directory_iterator(folder / "out" / "store" / "packings"))
+    write_text(entry.path(), "damaged");
+  const auto damaged = shell(folder.path(), "$P sweep sweep.toml -o out --seed 20");
+  EXPECT_EQ(damaged.status, 4);
+  EXPECT_NE(damaged.errors.find("is not the packing that it was"), std::string::npos) << damaged.errors;
 }
 
 TEST(SweepCommand, SameBytesForAnyThreadCountAndFolder) {
