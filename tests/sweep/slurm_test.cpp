@@ -58,7 +58,7 @@ TEST_F(Slurm, AFailedRunIsRecordedWithItsReason) {
 /// A sweep whose jobs wait, and what is done once they are in the queue.
 std::string while_waiting(const std::string& command) {
   return "$P sweep sweep.toml -o out --executor slurm --slurm-options '--begin=now+1hour' & pid=$!; "
-         "until [ \"$(squeue --noheader --array | wc -l)\" = 4 ]; do sleep 0.1; done; " +
+         "until [ \"$(squeue --noheader --array | wc -l)\" = 4 ] || ! kill -0 $pid; do sleep 0.1; done; " +
          command + "; wait $pid";
 }
 

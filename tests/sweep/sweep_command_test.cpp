@@ -120,10 +120,10 @@ TEST_P(StoppedSweep, GoesOnToTheSameBytes) {
   ASSERT_EQ(shell(folder.path(), "$P sweep sweep.toml -o whole --threads 2").status, 0);
   const bool killed = std::string(GetParam()) == "KILL";
   const auto stopped =
-      shell(folder.path(),
-            std::string("$P sweep sweep.toml -o stopped --threads 2 & pid=$!; "
-                        "until ls stopped/store/runs/*/frames/frame_0001.vtp; do sleep 0.02; done; kill -") +
-                GetParam() + " $pid; wait $pid");
+      shell(folder.path(), std::string("$P sweep sweep.toml -o stopped --threads 2 & pid=$!; "
+                                       "until ls stopped/store/runs/*/frames/frame_0001.vtp || ! kill -0 "
+                                       "$pid; do sleep 0.02; done; kill -") +
+                               GetParam() + " $pid; wait $pid");
   EXPECT_EQ(stopped.status, killed ? 137 : 130) << stopped.errors;
   EXPECT_FALSE(fs::exists(folder / "stopped" / "results.csv"));
   const auto resumed = shell(folder.path(), "$P sweep sweep.toml -o stopped --threads 2 --resume");
@@ -140,7 +140,8 @@ TEST(SweepCommand, AllProcessesKilledAtOnceLoseNothing) {
   ASSERT_EQ(shell(folder.path(), "$P sweep sweep.toml -o whole --threads 2").status, 0);
   shell(folder.path(),
         "setsid $P sweep sweep.toml -o stopped --threads 2 & pid=$!; "
-        "until ls stopped/store/runs/*/frames/frame_0001.vtp; do sleep 0.02; done; kill -9 -- -$pid; wait "
+        "until ls stopped/store/runs/*/frames/frame_0001.vtp || ! kill -0 $pid; do sleep 0.02; done; kill -9 "
+        "-- -$pid; wait "
         "$pid");
   const auto resumed = shell(folder.path(), "$P sweep sweep.toml -o stopped --threads 2");
   ASSERT_EQ(resumed.status, 0) << resumed.errors;
