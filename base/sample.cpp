@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "base/error.h"
@@ -237,6 +238,46 @@ double sample_key(const Sample& sample, const std::string& name) {
   const auto value = find_number_key(name).get(sample);
   if (!value) bad_input("{} is not set in this sample", name);
   return *value;
+}
+
+namespace {
+
+/// A number in the key's unit that makes the field's value again, bit for bit; the plainest of them.
+std::optional<double> exact_number(const NumberKey& key, const Sample& sample) {
+  const double in_unit = *key.get(sample);
+  const auto beside = [&](double towards) { return std::nextafter(in_unit, towards); };
+  const double plain = std::strtod(fmt::format("{:.15g}", in_unit).c_str(), nullptr);
+  for (const double candidate :
+       {plain, in_unit, beside(0.0), beside(HUGE_VAL), std::nextafter(beside(0.0), 0.0),
+        std::nextafter(beside(HUGE_VAL), HUGE_VAL)}) {
+    if (!(candidate >= key.lowest && candidate <= key.highest)) continue;
+    Sample again = sample;
+    key.set(again, candidate, key.name);
+    if (key.in_si(again) == key.in_si(sample)) return candidate;
+  }
+  return std::nullopt;
+}
+
+/// The same, or for a value that no number in the key's unit makes, that of the nearest value.
+double number_for(const NumberKey& key, const Sample& sample) {
+  if (const auto exact = exact_number(key, sample)) return *exact;
+  const double near = std::clamp(*key.get(sample), key.lowest, key.highest);
+  Sample rounded = sample;
+  key.set(rounded, near, key.name);
+  return exact_number(key, rounded).value_or(near);
+}
+
+}  // namespace
+
+std::vector<SampleSetting> sample_settings(const Sample& sample) {
+  Sample copy = sample;
+  std::vector<SampleSetting> settings;
+  for (const auto& key : number_keys())
+    if (key.in_si(sample)) settings.emplace_back(key.name, number_for(key, sample));
+  for (const auto& key : word_keys()) settings.emplace_back(key.name, key.field(copy));
+  for (const auto& key : strains_keys()) settings.emplace_back(key.name, key.field(copy));
+  for (const auto& key : switch_keys()) settings.emplace_back(key.name, key.field(copy));
+  return settings;
 }
 
 void set_polymer_content(Sample& sample, double content) {

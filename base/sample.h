@@ -128,9 +128,11 @@ Sample read_sample(const fs::path& path);
 Sample parse_sample(std::string_view text, const std::string& name,
                     const std::vector<SampleSetting>& settings = {});
 
-/// The sample as the text of a file that states every key, always in the same order. What is read from it
-/// equals the sample exactly if its numbers came from a file or from set_sample_key(), and to 1e-15
-/// otherwise.
+/// Every key that the sample has a value for, always in the same order. A sample with these settings equals
+/// it exactly if its numbers came from a file or from set_sample_key(), and to 1e-15 otherwise.
+std::vector<SampleSetting> sample_settings(const Sample& sample);
+
+/// The same as the text of a sample file.
 std::string sample_text(const Sample& sample);
 
 /// Sets one key by its dotted name. BadInput, opening with `where`, for an unknown key, a value of the wrong

@@ -73,36 +73,24 @@ Sample read_sample(const fs::path& path) {
 
 namespace {
 
-/// A number in the key's unit from which reading makes the field's value again, bit for bit where there is
-/// one.
-double exact_number(const NumberKey& key, double in_unit, const Sample& sample) {
-  const double below = std::nextafter(in_unit, 0.0), above = std::nextafter(in_unit, HUGE_VAL);
-  for (const double candidate : {in_unit, below, above}) {
-    if (!(candidate >= key.lowest && candidate <= key.highest)) continue;
-    Sample again = sample;
-    key.set(again, candidate, key.name);
-    if (key.in_si(again) == key.in_si(sample)) return candidate;
+/// A value as the file has it.
+struct Written {
+  std::string operator()(double number) const { return fmt::format("{}", number); }
+  std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+  std::string operator()(const std::string& word) const { return '"' + word + '"'; }
+  std::string operator()(const std::vector<double>& numbers) const {
+    return fmt::format("[{}]", fmt::join(numbers, ", "));
   }
-  return in_unit;
-}
+};
 
 }  // namespace
 
 std::string sample_text(const Sample& sample) {
-  Sample copy = sample;
-  std::vector<std::pair<std::string, std::string>> lines;  // dotted name, value
-  for (const auto& key : number_keys())
-    if (const auto value = key.get(sample))
-      lines.emplace_back(key.name, fmt::format("{}", exact_number(key, *value, sample)));
-  for (const auto& key : word_keys()) lines.emplace_back(key.name, '"' + key.field(copy) + '"');
-  for (const auto& key : strains_keys())
-    lines.emplace_back(key.name, fmt::format("[{}]", fmt::join(key.field(copy), ", ")));
-  for (const auto& key : switch_keys()) lines.emplace_back(key.name, key.field(copy) ? "true" : "false");
-
   std::map<std::string, std::string> sections;
-  for (const auto& [name, value] : lines) {
+  for (const auto& [name, value] : sample_settings(sample)) {
     const auto dot = name.find('.');
-    sections[name.substr(0, dot)] += fmt::format("{} = {}\n", name.substr(dot + 1), value);
+    sections[name.substr(0, dot)] +=
+        fmt::format("{} = {}\n", name.substr(dot + 1), std::visit(Written{}, value));
   }
   std::string text;
   for (const auto& [section, keys] : sections) text += fmt::format("[{}]\n{}", section, keys);

@@ -12,8 +12,9 @@ std::vector<std::string> command_line;
 
 /// The command as typed, without what cannot change the result, so that equal work has equal provenance.
 std::string canonical_command() {
-  static const std::set<std::string> with_value = {"--threads", "--out", "-o"};
-  static const std::set<std::string> alone = {"--quiet", "--resume"};
+  static const std::set<std::string> with_value = {"--threads", "--out",      "-o",
+                                                   "--store",   "--executor", "--slurm-options"};
+  static const std::set<std::string> alone = {"--quiet", "--resume", "--retry-failed"};
   std::string text = "pendular";
   for (std::size_t k = 0; k < command_line.size(); ++k) {
     const std::string name = command_line[k].substr(0, command_line[k].find('='));

@@ -39,6 +39,8 @@ void add_compress(CLI::App& app);
 void add_modulus(CLI::App& app);
 void add_render(CLI::App& app);
 void add_convert(CLI::App& app);
+void add_sweep(CLI::App& app);
+void add_sweep_run(CLI::App& app);  // the process of one run; not for users
 void add_pipette(CLI::App& app);
 
 }  // namespace pendular::cli

@@ -23,6 +23,8 @@ void add_commands(CLI::App& app) {
   add_render(app);
   add_convert(app);
   add_pipette(app);
+  add_sweep(app);
+  add_sweep_run(app);
 }
 
 CLI::App new_app() {

@@ -79,6 +79,7 @@ TEST(Sample, ItsTextReadsBackBitForBit) {
       set_sample_key(sample, "beads.diameter_um", 150.0 + 100.0 * random_uniform(3, round));
       const Sample again = parse_sample(sample_text(sample), "again");
       EXPECT_EQ(sample_text(again), sample_text(sample));
+      EXPECT_EQ(sample_text(parse_sample("", "again", sample_settings(sample))), sample_text(sample));
       for (const auto& key : sample_keys()) {
         if (key.name.find("stiffness_n_per_m") != std::string::npos || !std::isfinite(key.highest)) continue;
         if (key.name == "compression.speed_mm_s" || key.name == "compression.hold_s") continue;
@@ -86,6 +87,17 @@ TEST(Sample, ItsTextReadsBackBitForBit) {
       }
       EXPECT_EQ(again.compression.unload_at, sample.compression.unload_at);
     }
+}
+
+TEST(Sample, ItsTextSettlesForNumbersThatNoTextMakes) {
+  for (std::uint64_t round = 0; round < 2000; ++round) {
+    Sample sample;
+    sample.beads.diameter = 1e-4 * (1.5 + random_uniform(5, 2 * round));  // m, not read from micrometres
+    sample.specimen.height = 1e-3 * (1.0 + random_uniform(5, 2 * round + 1));
+    const Sample again = parse_sample(sample_text(sample), "again");
+    EXPECT_NEAR(again.beads.diameter, sample.beads.diameter, 1e-15 * sample.beads.diameter);
+    EXPECT_EQ(sample_text(again), sample_text(sample));
+  }
 }
 
 TEST(Sample, SettingsCountAsIfTheFileHadThem) {

@@ -1,0 +1,175 @@
+#include <map>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "cli/command.h"
+#include "sweep/estimate.h"
+#include "sweep/execute.h"
+#include "sweep/make_run.h"
+#include "sweep/tables.h"
+
+namespace pendular::cli {
+namespace {
+
+struct Options {
+  Common common;
+  bool seed_given = false;
+  fs::path file, store;
+  bool dry_run = false, retry_failed = false;
+  std::string executor = "local", slurm_options;
+
+  fs::path store_folder() const { return store.empty() ? common.out / "store" : store; }
+};
+
+std::string duration(double seconds) {
+  if (seconds < 120.0) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 7200.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+/// What a store already has of a plan.
+struct Stock {
+  std::size_t done = 0, failed = 0;
+  std::vector<sweep::RunRequest> left;  ///< to be made
+  std::optional<double> rate;           ///< of the store's runs
+};
+
+Stock stock_of(const Options& options, const sweep::Plan& plan) {
+  std::vector<std::string> hashes;
+  for (const auto& request : plan.requests) hashes.push_back(sweep::content_hash(request));
+  std::map<std::string, sweep::RunRecord> known;
+  Stock stock;
+  if (sweep::Store::exists(options.store_folder())) {  // opening would make it
+    sweep::Store store(options.store_folder());
+    known = store.records(hashes);
+    stock.rate = store.rate();
+  }
+  for (std::size_t k = 0; k < hashes.size(); ++k) {
+    const auto status = known[hashes[k]].status;
+    const bool failed = status == sweep::RunStatus::failed;
+    stock.done += status == sweep::RunStatus::done;
+    stock.failed += failed;
+    if (status == sweep::RunStatus::done || (failed && !options.retry_failed)) continue;
+    stock.left.push_back(plan.requests[k]);
+  }
+  return stock;
+}
+
+/// What there is to do, without doing it.
+void tell_plan(const Options& options, const sweep::Plan& plan) {
+  const auto [done, failed, left, rate] = stock_of(options, plan);
+  say(fmt::format("{} runs: {} in the store, {} failed before, {} to make", plan.runs.size(), done, failed,
+                  left.size()));
+  if (left.empty()) return;
+  const auto work = sweep::estimate(left);
+  const double cores = static_cast<double>(std::min(thread_count(), left.size()));
+  const double per_core = rate.value_or(sweep::kStatedRate);
+  say(fmt::format(
+      "about {} on {} cores ({:.3g} particle-steps at {:.3g} M per second and core, {}), {:.2g} MB",
+      duration(work.particle_steps / (per_core * cores)), cores, work.particle_steps, 1e-6 * per_core,
+      rate ? "as the store's runs went" : "a guess until the store has runs", 1e-6 * work.bytes));
+}
+
+/// What failed, in one line.
+std::string failures(const std::vector<sweep::RunOutcome>& outcomes) {
+  constexpr std::size_t kMostTold = 3;
+  std::size_t failed = 0;
+  std::string told;
+  for (const auto& outcome : outcomes) {
+    if (outcome.status != sweep::RunStatus::failed || ++failed > kMostTold) continue;
+    told += fmt::format("; run {}: {}", outcome.hash.substr(0, 12), outcome.message);
+  }
+  if (failed == 0) return "";
+  if (failed > kMostTold) told += "; …";
+  return fmt::format("{} of {} runs failed, see results.csv (--retry-failed makes them again){}", failed,
+                     outcomes.size(), told);
+}
+
+std::vector<sweep::RunOutcome> make_runs(const Options& options, const std::string& name,
+                                         const sweep::Plan& plan) {
+  sweep::Store store(options.store_folder());
+  sweep::ExecuteOptions how;
+  how.cores = options.common.threads;
+  how.retry_failed = options.retry_failed;
+  if (options.executor == "slurm") how.slurm = sweep::SlurmOptions{options.slurm_options};
+  Progress progress(name, 1.0);
+  how.progress = [&](std::size_t done, std::size_t failed, std::size_t total) {
+    progress.update(static_cast<double>(done + failed) / static_cast<double>(total),
+                    fmt::format("{} of {} runs, {} failed", done + failed, total, failed));
+  };
+  return sweep::execute(store, plan.requests, how);
+}
+
+void run(const Options& options) {
+  apply(options.common);
+  if (!options.slurm_options.empty() && options.executor != "slurm")
+    throw BadUsage("--slurm-options: expected only with --executor slurm");
+  const auto seed = options.seed_given ? std::optional(options.common.seed) : std::nullopt;
+  const sweep::SweepFile file = sweep::read_sweep(options.file, seed);
+  const sweep::Plan plan = sweep::plan_of(file);
+  if (options.dry_run) return tell_plan(options, plan);
+  make_folder(options.common.out);
+  std::vector<fs::path> inputs = {options.file, file.sample};
+  if (!file.packing.empty()) inputs.push_back(file.packing);
+  Provenance from = provenance(options.common, inputs);
+  from.seed = file.seed;
+
+  const auto outcomes = make_runs(options, file.name, plan);
+  sweep::write_tables(options.common.out, plan, outcomes, from);
+  if (const std::string failed = failures(outcomes); !failed.empty()) throw ComputationFailed(failed);
+  say(fmt::format("{}: {} runs done, {}", file.name, outcomes.size(),
+                  (options.common.out / "summary.csv").string()));
+}
+
+struct RunOptions {
+  fs::path store;
+  std::string hash;
+  int threads = 1;
+};
+
+void run_one(const RunOptions& options) {
+  set_threads(options.threads);
+  if (!sweep::Store::exists(options.store))
+    bad_input("{}: is no store of pendular sweep", options.store.string());
+  sweep::Store store(options.store);
+  sweep::make_run(store, options.hash);
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand(
+      "sweep",
+      "Families of compressions: all combinations of a grid and of lists of keys, each in several "
+      "realisations.\n"
+      "Runs are made in parallel, kept once under the hash of their content, and gone on with by the same\n"
+      "command; results.csv has a row per run, summary.csv one per point.");
+  command->add_option("file", options->file, "Sweep file (.toml)")->required();
+  command->add_option("--store", options->store,
+                      "Folder of runs, which sweeps may share; default: OUT/store");
+  command->add_flag("--dry-run", options->dry_run, "Say how many runs there are and how long they take");
+  command->add_flag("--retry-failed", options->retry_failed, "Make the runs again that failed before");
+  command->add_flag("--resume")->description("Go on where the sweep stopped; it does so anyway");
+  command->add_option("--executor", options->executor, "Where runs are made: on this machine, or by Slurm")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str();
+  command->add_option("--slurm-options", options->slurm_options, "Further options of sbatch, in quotes");
+  add_common(*command, options->common, "Folder for the tables");
+  command->callback([options, command] {
+    options->seed_given = command->count("--seed") > 0;
+    run(*options);
+  });
+}
+
+void add_sweep_run(CLI::App& app) {
+  auto options = std::make_shared<RunOptions>();
+  auto* command = app.add_subcommand("sweep-run", "Makes one run of a sweep's store")->group("");
+  command->add_option("store", options->store)->required();
+  command->add_option("hash", options->hash)->required();
+  command->add_option("--threads", options->threads)->check(CLI::Range(1, 4096));
+  command->callback([options] { run_one(*options); });
+}
+
+}  // namespace pendular::cli

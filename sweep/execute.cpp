@@ -1,0 +1,58 @@
+#include "sweep/execute.h"
+
+#include <set>
+#include <sstream>
+
+#include "sweep/executors.h"
+
+namespace pendular::sweep {
+
+void OpenRuns::ask() {
+  std::size_t done = 0, failed = 0;
+  records_.clear();
+  const auto found = store_.records(hashes_);
+  for (const auto& hash : hashes_) {
+    const RunRecord& record = found.at(hash);
+    done += record.status == RunStatus::done;
+    failed += record.status == RunStatus::failed;
+    if (record.status == RunStatus::waiting || record.status == RunStatus::running)
+      records_.push_back(record);
+  }
+  if (options_.progress) options_.progress(done, failed, hashes_.size());
+}
+
+std::string last_words(const Store& store, const std::string& hash) {
+  if (!fs::exists(store.log_path(hash))) return "";
+  std::istringstream lines(read_text(store.log_path(hash)));
+  std::string line, last;
+  while (std::getline(lines, line))
+    if (!line.empty()) last = line;
+  return last;
+}
+
+std::vector<RunOutcome> execute(Store& store, std::span<const RunRequest> requests,
+                                const ExecuteOptions& options) {
+  const std::vector<std::string> hashes = store.add(requests);
+  std::vector<std::string> once;
+  std::set<std::string> seen;
+  for (const auto& hash : hashes) {
+    if (!seen.insert(hash).second) continue;
+    once.push_back(hash);
+    if (options.retry_failed) store.retry(hash);
+  }
+  OpenRuns open(store, once, options);
+  if (options.slurm)
+    run_on_slurm(store, open, options);
+  else
+    run_locally(store, open, options);
+
+  const auto records = store.records(once);
+  std::vector<RunOutcome> outcomes;
+  for (const auto& hash : hashes) {
+    const RunRecord& record = records.at(hash);
+    outcomes.push_back({hash, record.status, record.exit_status, record.message, store.run_folder(hash)});
+  }
+  return outcomes;
+}
+
+}  // namespace pendular::sweep

@@ -1,0 +1,86 @@
+#include "sweep/request.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/provenance.h"
+#include "packing/vtp.h"
+
+namespace pendular::sweep {
+
+PackingSource packing_file(const fs::path& path) {
+  PackingSource source;
+  source.beads = read_packing(path).beads.size();
+  source.sha256 = sha256_of(path);
+  source.file = path;
+  return source;
+}
+
+PackingSource generated_packing(std::uint64_t seed) {
+  PackingSource source;
+  source.seed = seed;
+  return source;
+}
+
+namespace {
+
+SampleValue value_of(const nlohmann::json& json) {
+  if (json.is_number()) return json.get<double>();
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_string()) return json.get<std::string>();
+  return json.get<std::vector<double>>();
+}
+
+}  // namespace
+
+std::string request_text(const RunRequest& request) {
+  nlohmann::ordered_json packing;
+  if (request.packing.sha256.empty())
+    packing["seed"] = request.packing.seed;
+  else
+    packing["sha256"] = request.packing.sha256;
+  nlohmann::ordered_json sample;
+  for (const auto& [key, value] : sample_settings(request.sample))
+    std::visit([&, name = key](const auto& held) { sample[name] = held; }, value);
+  const nlohmann::ordered_json json = {{"version", program_version()},
+                                       {"packing", packing},
+                                       {"seed", request.seed},
+                                       {"keep", request.keep_all ? "all" : "curve"},
+                                       {"sample", sample}};
+  return json.dump(2) + "\n";
+}
+
+RunRequest parse_request(const std::string& text, const std::string& where) {
+  try {
+    const auto json = nlohmann::json::parse(text);
+    RunRequest request;
+    std::vector<SampleSetting> settings;
+    for (const auto& [key, value] : json.at("sample").items()) settings.emplace_back(key, value_of(value));
+    request.sample = parse_sample("", where, settings);
+    request.packing.sha256 = json.at("packing").value("sha256", "");
+    request.packing.seed = json.at("packing").value("seed", std::uint64_t{1});
+    request.seed = json.at("seed").get<std::uint64_t>();
+    request.keep_all = json.at("keep").get<std::string>() == "all";
+    return request;
+  } catch (const nlohmann::json::exception&) {
+    bad_input("{}: is damaged, expected a request of pendular sweep", where);
+  }
+}
+
+std::string content_hash(const RunRequest& request) {
+  return sha256(request_text(request));
+}
+
+std::string packing_hash(const RunRequest& request) {
+  if (!request.packing.sha256.empty()) return request.packing.sha256;
+  // What generate_packing() reads.
+  std::string text = fmt::format("pendular {} packing {}\n", program_version(), request.packing.seed);
+  for (const char* key : {"beads.diameter_um", "beads.diameter_sd_um", "specimen.diameter_um",
+                          "specimen.height_um", "specimen.volume_fraction"})
+    text += fmt::format("{} = {}\n", key, sample_key(request.sample, key));
+  return sha256(text);
+}
+
+}  // namespace pendular::sweep

@@ -1,0 +1,140 @@
+#include "sweep/tables.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+
+namespace pendular::sweep {
+namespace {
+
+/// A column and where result.json has it; summed up over realisations or not.
+struct Quantity {
+  const char* name;
+  const char* path;
+  bool summed;
+};
+
+constexpr Quantity kQuantities[] = {
+    {"linear_modulus_pa", "/linear_modulus_pa/value", true},
+    {"linear_modulus_sigma_pa", "/linear_modulus_pa/sigma", false},
+    {"linear_limit_strain", "/linear_limit_strain", true},
+    {"peak_stress_pa", "/peak/stress_pa", true},
+    {"peak_strain", "/peak/strain", true},
+    {"broken_bonds", "/broken_bonds", true},
+    {"coordination", "/coordination/bridges_per_interior_bead", true},
+    {"beads", "/beads", false},
+    {"bonds", "/bonds", false},
+    {"final_strain", "/final_strain", false},
+    {"inertial_number", "/quasi_static/largest_inertial_number", false},
+    {"unbalanced_force", "/quasi_static/largest_unbalanced_force", false},
+    {"work_balance_error", "/work_balance/relative_error", false},
+};
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// One value per quantity, NaN where a run has none.
+using Values = std::vector<double>;
+
+Values values_of(const RunOutcome& outcome) {
+  Values values(std::size(kQuantities), kNone);
+  if (outcome.status != RunStatus::done) return values;
+  const fs::path path = outcome.folder / "result.json";
+  const auto json = nlohmann::json::parse(read_text(path), nullptr, false);
+  if (json.is_discarded())
+    bad_input("{}: is damaged; remove its folder, and the sweep makes it anew", path.string());
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const nlohmann::json::json_pointer place(kQuantities[k].path);
+    if (json.contains(place) && json[place].is_number()) values[k] = json[place].get<double>();
+  }
+  return values;
+}
+
+std::string cell(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : "";
+}
+
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r#") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return quoted + '"';
+}
+
+/// "point,KEY,KEY"
+std::string point_header(const Plan& plan) {
+  std::string text = "point";
+  for (const auto& key : plan.keys) text += ',' + key;
+  return text;
+}
+
+std::string point_cells(const Plan::Run& run) {
+  std::string text = std::to_string(run.point);
+  for (const auto& value : run.values) text += ',' + cell(to_string(value));
+  return text;
+}
+
+std::string results_csv(const Plan& plan, std::span<const RunOutcome> outcomes,
+                        const std::vector<Values>& values) {
+  std::string text = point_header(plan) + ",realisation,seed,run,status,message";
+  for (const auto& quantity : kQuantities) text += fmt::format(",{}", quantity.name);
+  text += '\n';
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    const auto& run = plan.runs[k];
+    text += fmt::format("{},{},{},{},{},{}", point_cells(run), run.realisation, run.seed, outcomes[k].hash,
+                        to_string(outcomes[k].status), cell(outcomes[k].message));
+    for (const double value : values[k]) text += ',' + cell(value);
+    text += '\n';
+  }
+  return text;
+}
+
+/// "mean,sd,standard_error,n" of the values that there are.
+std::string spread_cells(const std::vector<double>& values) {
+  double sum = 0.0, square = 0.0, n = 0.0;
+  for (const double v : values)
+    if (std::isfinite(v)) sum += v, n += 1.0;
+  const double mean = n > 0.0 ? sum / n : kNone;
+  for (const double v : values)
+    if (std::isfinite(v)) square += (v - mean) * (v - mean);
+  const double sd = n > 1.0 ? std::sqrt(square / (n - 1.0)) : kNone;
+  return fmt::format("{},{},{},{}", cell(mean), cell(sd), cell(sd / std::sqrt(n)), n);
+}
+
+std::string summary_csv(const Plan& plan, std::span<const RunOutcome> outcomes,
+                        const std::vector<Values>& values) {
+  std::string text = point_header(plan) + ",runs,failed";
+  for (const auto& quantity : kQuantities)
+    if (quantity.summed) text += fmt::format(",{0}_mean,{0}_sd,{0}_standard_error,{0}_n", quantity.name);
+  text += '\n';
+  for (std::size_t first = 0, last = 0; first < plan.runs.size(); first = last) {
+    int failed = 0;
+    for (last = first; last < plan.runs.size() && plan.runs[last].point == plan.runs[first].point; ++last)
+      failed += outcomes[last].status == RunStatus::failed;
+    text += fmt::format("{},{},{}", point_cells(plan.runs[first]), last - first, failed);
+    for (std::size_t q = 0; q < std::size(kQuantities); ++q) {
+      if (!kQuantities[q].summed) continue;
+      std::vector<double> column;
+      for (std::size_t k = first; k < last; ++k) column.push_back(values[k][q]);
+      text += ',' + spread_cells(column);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_tables(const fs::path& folder, const Plan& plan, std::span<const RunOutcome> outcomes,
+                  const Provenance& provenance) {
+  std::vector<Values> values;
+  for (const auto& outcome : outcomes) values.push_back(values_of(outcome));
+  const std::string head = to_comment(provenance);
+  write_text(folder / "results.csv", head + results_csv(plan, outcomes, values));
+  write_text(folder / "summary.csv", head + summary_csv(plan, outcomes, values));
+}
+
+}  // namespace pendular::sweep

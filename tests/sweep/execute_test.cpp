@@ -1,0 +1,93 @@
+#include "sweep/execute.h"
+
+#include <gtest/gtest.h>
+
+#include "dem_core/compress.h"
+#include "packing/bridges.h"
+#include "packing/generate.h"
+#include "packing/vtp.h"
+#include "scratch.h"
+#include "sweep_files.h"
+
+namespace pendular::sweep {
+namespace {
+
+using test::ScratchFolder;
+
+ExecuteOptions with_program() {
+  ExecuteOptions options;
+  options.program = PENDULAR_PROGRAM;
+  return options;
+}
+
+RunRequest tiny_request(std::uint64_t seed) {
+  RunRequest request;
+  request.sample = parse_sample(test::tiny_sample(), "s.toml");
+  request.packing = generated_packing(1);
+  request.seed = seed;
+  return request;
+}
+
+TEST(Execute, ARunIsTheOneThatCompressMakes) {
+  ScratchFolder folder;
+  const RunRequest request = tiny_request(4);
+  Packing packing = generate_packing(request.sample, 1);
+  packing.bridges =
+      candidate_bridges(packing.beads, request.sample.bridges.cutoff * request.sample.beads.diameter);
+  write_packing(folder / "p.vtp", packing);
+  const auto direct = compress(realise(read_packing(folder / "p.vtp"), request.sample, 4), request.sample,
+                               folder / "run", {});
+
+  Store store(folder / "store");
+  const auto outcomes = execute(store, std::vector{request}, with_program());
+  ASSERT_EQ(outcomes.size(), 1u);
+  ASSERT_EQ(outcomes[0].status, RunStatus::done) << outcomes[0].message;
+  const auto result = nlohmann::ordered_json::parse(read_text(outcomes[0].folder / "result.json"));
+  EXPECT_EQ(result["linear_modulus_pa"], direct.result["linear_modulus_pa"]);
+  EXPECT_EQ(result["work_balance"], direct.result["work_balance"]);
+  EXPECT_FALSE(result.contains("performance"));
+  EXPECT_FALSE(fs::exists(outcomes[0].folder / "frames"));
+  EXPECT_FALSE(fs::exists(outcomes[0].folder / "checkpoint"));
+  EXPECT_TRUE(store.rate().has_value());
+}
+
+TEST(Execute, EqualRequestsAreMadeOnceAndAnsweredEach) {
+  ScratchFolder folder;
+  Store store(folder / "store");
+  RunRequest all = tiny_request(4);
+  all.keep_all = true;
+  std::size_t last_done = 0, total = 0;
+  ExecuteOptions options = with_program();
+  options.progress = [&](std::size_t done, std::size_t, std::size_t of) { last_done = done, total = of; };
+  const auto outcomes = execute(store, std::vector{tiny_request(4), all, tiny_request(4)}, options);
+  ASSERT_EQ(outcomes.size(), 3u);
+  EXPECT_EQ(outcomes[0].hash, outcomes[2].hash);
+  EXPECT_EQ(last_done, 2u);
+  EXPECT_EQ(total, 2u);
+  EXPECT_TRUE(fs::exists(outcomes[1].folder / "frames" / "frame_0001.vtp"));
+  EXPECT_TRUE(fs::exists(outcomes[1].folder / "checkpoint"));
+  EXPECT_EQ(sha256_of(store.packing_path(packing_hash(all))),
+            sha256_of(store.packing_path(packing_hash(tiny_request(4)))));
+}
+
+TEST(Execute, AProgramThatCannotDoItIsAFailedRunNotAnEndlessLoop) {
+  ScratchFolder folder;
+  Store store(folder / "store");
+  ExecuteOptions options;
+  options.program = folder / "absent";
+  auto outcomes = execute(store, std::vector{tiny_request(1)}, options);
+  EXPECT_EQ(outcomes[0].status, RunStatus::failed);
+  EXPECT_NE(outcomes[0].message.find("cannot be started"), std::string::npos);
+
+  write_text(folder / "killed", "#!/bin/sh\necho out of luck >&2\nkill -9 $$\n");
+  fs::permissions(folder / "killed", fs::perms::owner_all);
+  options.program = folder / "killed";
+  outcomes = execute(store, std::vector{tiny_request(2)}, options);
+  EXPECT_EQ(outcomes[0].status, RunStatus::failed);
+  EXPECT_EQ(outcomes[0].exit_status, 137);
+  EXPECT_NE(outcomes[0].message.find("killed by signal 9"), std::string::npos) << outcomes[0].message;
+  EXPECT_NE(outcomes[0].message.find("out of luck"), std::string::npos) << outcomes[0].message;
+}
+
+}  // namespace
+}  // namespace pendular::sweep
