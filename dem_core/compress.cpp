@@ -82,14 +82,16 @@ class Test {
     const RunState before = state_;
     Simulation& s = state_.simulation;
     const auto& asked = sample_.compression;
-    if (!compress_and_relax(s, stepper_, {asked.relax_increment, asked.relax_to})) {
+    const double left = asked.max_strain - s.strain();
+    const bool last = left <= (1.0 + 1e-9) * asked.relax_increment;
+    if (!compress_and_relax(s, stepper_, {last ? left : asked.relax_increment, asked.relax_to})) {
       state_ = before;
       return stepper_.load();
     }
     require_finite();
     state_.open_row = {s.strain(), s.top.force, s.bottom.force, 1};
     close_row();
-    if (program_.ended(s, state_.platen, last_stress())) finish();
+    if (last || program_.ended(s, state_.platen, last_stress())) finish();
   }
 
   void close_row() {

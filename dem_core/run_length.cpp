@@ -8,8 +8,12 @@
 
 namespace pendular {
 
+// As sample A takes, and specimens of 1,300 beads.
+constexpr double kStepsPerIncrement = 1000.0;
+
 double expected_steps(const Sample& sample) {
   const auto& asked = sample.compression;
+  if (asked.control == "relaxation") return kStepsPerIncrement * asked.max_strain / asked.relax_increment;
   const double mean = sample.beads.diameter;
   const double spread =
       sample.beads.diameters == "drawn" ? sample.beads.realisation_sd : sample.beads.diameter_sd / mean;
