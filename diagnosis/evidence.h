@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pendular::diagnosis {
+
+/// What an effect of magnitude θ does to the features, θ linear + θ² curved; and how large it may be.
+struct Signature {
+  std::string id;
+  Eigen::VectorXd linear, curved;
+  double lowest = 0.0, highest = 0.0;  ///< of θ
+  double scale = 0.0;                  ///< sd of θ a priori, about zero, within its range
+
+  Eigen::VectorXd at(double theta) const { return theta * linear + theta * theta * curved; }
+};
+
+/// A gap to be explained. Features are logarithms of ratios or differences of strains; all in one order.
+struct Gap {
+  Eigen::VectorXd values;  ///< observed less simulated
+  Eigen::MatrixXd
+      covariance;        ///< of what is neither effect nor believed input: ensemble, measurement, specimen
+  double freedom = 0.0;  ///< degrees of freedom of that covariance where it was estimated; 0: known
+  Eigen::MatrixXd believed;  ///< what one standard deviation of each believed input does: a column each
+};
+
+/// Prior probabilities: P(none), P(unknown), and how much less a pair is expected than a single effect.
+struct Priors {
+  double none = 0.2, unknown = 0.15, pairs = 0.15;
+};
+
+struct Magnitude {
+  double mean = 0.0;  ///< of θ a posteriori
+  std::pair<double, double> interval_90 = {0, 0};
+};
+
+/// An explanation: none, unknown, one effect, or two ("a+b").
+struct Hypothesis {
+  std::string id;
+  double log_evidence = 0.0;
+  double probability = 0.0;
+  std::vector<Magnitude> magnitudes;  ///< one per effect
+  double misfit = 0.0;                ///< Mahalanobis distance squared of what the best magnitudes leave
+};
+
+/// Probabilities over none, every effect, every pair of effects, and unknown; most probable first.
+///
+/// Believed inputs float within their uncertainties (their responses are part of the covariance), so that an
+/// effect earns credit only for what they cannot absorb. The likelihood is the multivariate t of Sellentin &
+/// Heavens (2016, MNRAS 456, L132) where the covariance was estimated. Magnitudes are integrated over on a
+/// grid; the prior is a normal about zero with the signature's scale, cut to its range. `unknown` is a
+/// residual without direction: in units of the noise, of 1.5, 3 or 6 standard deviations per feature.
+std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& signatures,
+                              const Priors& priors = {});
+
+/// Squared distance, in units of the noise, from each signature at its scale to the nearest that another can
+/// make with any magnitude: below nine the two cannot be told apart. The last column is the distance from no
+/// effect: what is below nine there cannot be seen.
+Eigen::MatrixXd isolability(const Gap& gap, const std::vector<Signature>& signatures);
+
+}  // namespace pendular::diagnosis

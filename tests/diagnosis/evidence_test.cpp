@@ -1,0 +1,146 @@
+#include "diagnosis/evidence.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr int kFeatures = 8;
+
+Eigen::VectorXd draw(std::uint64_t seed, int size = kFeatures) {
+  Eigen::VectorXd v(size);
+  for (int k = 0; k < size; ++k) v[k] = random_normal(seed, static_cast<std::uint64_t>(k));
+  return v;
+}
+
+/// Effects whose signatures at scale one are `strength` noises long, in directions of their own.
+std::vector<Signature> effects(int count, double strength) {
+  std::vector<Signature> all;
+  for (int k = 0; k < count; ++k) {
+    Signature s;
+    s.id = std::string(1, static_cast<char>('a' + k));
+    s.linear = strength * draw(100 + static_cast<std::uint64_t>(k)).normalized();
+    s.curved = 0.1 * strength * draw(200 + static_cast<std::uint64_t>(k)).normalized();
+    s.lowest = 0.0, s.highest = 3.0, s.scale = 1.0;
+    all.push_back(s);
+  }
+  return all;
+}
+
+Gap gap_of(const Eigen::VectorXd& values) {
+  return {values, Eigen::MatrixXd::Identity(kFeatures, kFeatures), 0.0, Eigen::MatrixXd::Zero(kFeatures, 0)};
+}
+
+double probability(const std::vector<Hypothesis>& all, const std::string& id) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& h) { return h.id == id; });
+  return found == all.end() ? 0.0 : found->probability;
+}
+
+TEST(Evidence, OfOneFeatureIsTheIntegralInClosedForm) {
+  // One feature, one effect with a wide normal prior: evidence of a normal of variance 1 + (scale·slope)².
+  Signature s;
+  s.id = "a";
+  s.linear = Eigen::VectorXd::Constant(1, 2.0);
+  s.curved = Eigen::VectorXd::Zero(1);
+  s.lowest = -8.0, s.highest = 8.0, s.scale = 1.0;
+  const Gap gap = {Eigen::VectorXd::Constant(1, 3.0), Eigen::MatrixXd::Constant(1, 1, 1.0), 0.0,
+                   Eigen::MatrixXd::Zero(1, 0)};
+  for (const auto& h : weigh(gap, {s})) {
+    const auto normal = [](double x, double variance) {
+      return -0.5 * x * x / variance - 0.5 * std::log(2.0 * M_PI * variance);
+    };
+    if (h.id == "none") {
+      EXPECT_NEAR(h.log_evidence, normal(3.0, 1.0), 1e-12);
+    } else if (h.id == "a") {
+      EXPECT_NEAR(h.log_evidence, normal(3.0, 5.0), 1e-3);
+      // Posterior of θ: normal with mean 2·3/5 and variance 1/5.
+      EXPECT_NEAR(h.magnitudes[0].mean, 1.2, 1e-3);
+      EXPECT_NEAR(h.magnitudes[0].interval_90.first, 1.2 - 1.645 * std::sqrt(0.2), 5e-3);
+      EXPECT_NEAR(h.magnitudes[0].interval_90.second, 1.2 + 1.645 * std::sqrt(0.2), 5e-3);
+    }
+  }
+}
+
+TEST(Evidence, ProbabilitiesSumToOne) {
+  double sum = 0.0;
+  for (const auto& h : weigh(gap_of(draw(1)), effects(5, 4.0))) sum += h.probability;
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+}
+
+TEST(Evidence, NamesTheEffectAndCoversItsMagnitude) {
+  const auto all = effects(6, 8.0);
+  int named = 0, covered = 0, cases = 0;
+  for (std::uint64_t seed = 0; seed < 120; ++seed, ++cases) {
+    const auto& truth = all[seed % all.size()];
+    const double theta = 0.6 + 1.4 * random_uniform(7, seed);
+    const auto found = weigh(gap_of(truth.at(theta) + draw(1000 + seed)), all);
+    named += found.front().id == truth.id;
+    for (const auto& h : found)
+      if (h.id == truth.id)
+        covered += h.magnitudes[0].interval_90.first <= theta && theta <= h.magnitudes[0].interval_90.second;
+  }
+  EXPECT_GE(named, 0.9 * cases);
+  // 90 % of 120, within three standard errors.
+  EXPECT_NEAR(covered, 0.9 * cases, 3.0 * std::sqrt(0.09 * cases));
+}
+
+TEST(Evidence, FindsNothingWhereNothingIs) {
+  const auto all = effects(6, 8.0);
+  int alarms = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed)
+    alarms += probability(weigh(gap_of(draw(5000 + seed)), all), "none") < 0.1;
+  EXPECT_LE(alarms, 10);
+}
+
+TEST(Evidence, SaysUnknownWhereNoEffectFits) {
+  // Three effects of eight directions: most of what is drawn at random is outside their span.
+  const auto all = effects(3, 8.0);
+  int unknown = 0, sure_and_wrong = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    Eigen::VectorXd outside = draw(9000 + seed);
+    for (int round = 0; round < 50; ++round)
+      for (const auto& s : all) outside -= s.linear.normalized() * s.linear.normalized().dot(outside);
+    const auto found = weigh(gap_of(10.0 * outside.normalized() + draw(9500 + seed)), all);
+    unknown += found.front().id == "unknown";
+    sure_and_wrong += found.front().id != "unknown" && found.front().probability > 0.9;
+  }
+  EXPECT_GE(unknown, 80);
+  EXPECT_LE(sure_and_wrong, 2);
+}
+
+TEST(Evidence, WhatABelievedInputCanAbsorbIsNoEffect) {
+  const auto all = effects(4, 8.0);
+  Gap gap = gap_of(all[2].at(1.0));
+  EXPECT_GT(probability(weigh(gap, all), "c"), 0.8);
+  gap.believed = all[2].linear;
+  EXPECT_EQ(weigh(gap, all).front().id, "none");
+}
+
+TEST(Evidence, AnEstimatedCovarianceIsTrustedLess) {
+  // The same gap of four noises: with six degrees of freedom it is less of a surprise than with many.
+  Gap gap = gap_of(Eigen::VectorXd::Constant(kFeatures, 1.5));
+  const double known = probability(weigh(gap, effects(4, 8.0)), "none");
+  gap.freedom = 6.0;
+  EXPECT_GT(probability(weigh(gap, effects(4, 8.0)), "none"), known);
+}
+
+TEST(Evidence, AlikeEffectsAreNotIsolable) {
+  auto all = effects(3, 8.0);
+  all[1].linear = 0.7 * all[0].linear;
+  all[1].curved = Eigen::VectorXd::Zero(kFeatures);
+  all[0].curved = Eigen::VectorXd::Zero(kFeatures);
+  const auto distance = isolability(gap_of(Eigen::VectorXd::Zero(kFeatures)), all);
+  EXPECT_LT(distance(0, 1), 0.1);
+  EXPECT_GT(distance(0, 2), 9.0);
+  EXPECT_NEAR(distance(0, 3), 64.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace pendular::diagnosis
