@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -190,6 +191,13 @@ std::vector<CurveFeature> curve_features(const Curve& curve, double last_strain)
   for (const auto& loop : loops_of(curve, last_strain))
     add_loop(features, curve, loop, at->toe_strain, ++number == 1 ? "" : fmt::format("_{}", number));
   return features.take();
+}
+
+std::vector<double> unloading_strains(const Curve& curve) {
+  std::vector<double> strains;
+  for (const auto& loop : loops_of(curve, std::numeric_limits<double>::infinity()))
+    strains.push_back(curve.strain[loop.top]);
+  return strains;
 }
 
 double curve_noise(const Curve& curve) {

@@ -37,6 +37,9 @@ struct CurveFeature {
 /// Noise is taken out first by straight lines through a fiftieth of the range.
 std::vector<CurveFeature> curve_features(const Curve& curve, double last_strain);
 
+/// Strains at which a curve turns back by 0.2 % of strain or more, rising.
+std::vector<double> unloading_strains(const Curve& curve);
+
 /// The noise of a curve: standard deviation of the stress about straight lines through neighbours, Pa.
 double curve_noise(const Curve& curve);
 
