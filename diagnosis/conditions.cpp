@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "diagnosis/believed.h"
 #include "diagnosis/curve_signature.h"
 
 namespace pendular::diagnosis {
@@ -66,13 +67,14 @@ void add_series(std::vector<Condition>& all, const Experiment& experiment, std::
   const bool by_content = observation.has("W");
   const auto& at = observation.column(by_content ? "W" : "E_p_pa");
   for (std::size_t row = 0; row < at.size(); ++row) {
-    Condition condition{experiment.sample_of(observation), observation.beads, {index}, row};
-    if (by_content)
-      set_polymer_content(condition.sample, at[row]);
-    else
-      set_sample_key(condition.sample, "bridges.youngs_modulus_pa", at[row]);
-    condition.sample.compression.max_strain = kSeriesStrain;
-    all.push_back(std::move(condition));
+    const Sample sample = changed_sample(experiment.sample_of(observation), [&](Sample& changed) {
+      if (by_content)
+        set_polymer_content(changed, at[row]);
+      else
+        set_sample_key(changed, "bridges.youngs_modulus_pa", at[row]);
+      changed.compression.max_strain = kSeriesStrain;
+    });
+    all.push_back({sample, observation.beads, {index}, row});
   }
 }
 

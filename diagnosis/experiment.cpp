@@ -7,6 +7,7 @@
 #include "base/csv.h"
 #include "base/nearest.h"
 #include "base/toml_place.h"
+#include "diagnosis/believed.h"
 #include "diagnosis/plausible.h"
 
 namespace pendular::diagnosis {
@@ -177,10 +178,10 @@ std::string to_string(Kind kind) {
 }
 
 Sample Experiment::sample_of(const Observation& observation) const {
-  Sample changed = sample;
-  for (const auto& [key, value] : observation.set)
-    set_sample_key(changed, key, value, observation.name + ": " + key);
-  return changed;
+  return changed_sample(sample, [&](Sample& changed) {
+    for (const auto& [key, value] : observation.set)
+      set_sample_key(changed, key, value, observation.name + ": " + key);
+  });
 }
 
 Experiment read_experiment(const fs::path& path) {

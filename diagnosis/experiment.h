@@ -49,7 +49,7 @@ struct Experiment {
   std::vector<Observation> observations;
   std::vector<std::string> warnings;  ///< what was found odd but could be used
 
-  /// The sample of one observation.
+  /// The sample of one observation; a stated stiffness follows its polymer (believed.h).
   Sample sample_of(const Observation& observation) const;
 };
 
