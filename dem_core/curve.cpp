@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/line_fit.h"
+
 namespace pendular {
 namespace {
 
@@ -25,21 +27,9 @@ Points loading_branch(const std::vector<CurveRow>& rows) {
   return points;
 }
 
-struct Line {
-  double slope = 0.0, intercept = 0.0;
-  double at(double x) const { return intercept + slope * x; }
-};
-
 Line fit(const Points& p, std::size_t first, std::size_t last) {
-  const double n = static_cast<double>(last - first);
-  double mx = 0.0, my = 0.0, xx = 0.0, xy = 0.0;
-  for (std::size_t k = first; k < last; ++k) mx += p.x[k] / n, my += p.y[k] / n;
-  for (std::size_t k = first; k < last; ++k) {
-    xx += (p.x[k] - mx) * (p.x[k] - mx);
-    xy += (p.x[k] - mx) * (p.y[k] - my);
-  }
-  const double slope = xx > 0.0 ? xy / xx : 0.0;
-  return {slope, my - slope * mx};
+  return line_through(std::span(p.x).subspan(first, last - first),
+                      std::span(p.y).subspan(first, last - first));
 }
 
 double worst_residual(const Points& p, const Line& line, std::size_t first, std::size_t last) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/line_fit.h"
 #include "dem_core/curve.h"
 
 namespace pendular::diagnosis {
@@ -15,22 +16,6 @@ namespace {
 constexpr int kPoints = 150;              // of a smoothed envelope
 constexpr double kWindow = 1.0 / 50.0;    // half width of the lines that smooth, over the range
 constexpr double kLeastUnloading = 2e-3;  // strain
-
-/// Straight line by least squares through some points.
-struct Line {
-  double slope = 0.0, intercept = 0.0;
-  double at(double x) const { return intercept + slope * x; }
-};
-
-Line line_through(const std::vector<double>& x, const std::vector<double>& y, std::size_t first,
-                  std::size_t last) {
-  const double n = static_cast<double>(last - first);
-  double mx = 0.0, my = 0.0, xx = 0.0, xy = 0.0;
-  for (std::size_t k = first; k < last; ++k) mx += x[k] / n, my += y[k] / n;
-  for (std::size_t k = first; k < last; ++k) xx += (x[k] - mx) * (x[k] - mx), xy += (x[k] - mx) * (y[k] - my);
-  const double slope = xx > 0.0 ? xy / xx : 0.0;
-  return {slope, my - slope * mx};
-}
 
 /// The part of a curve that reaches strains for the first time.
 Curve envelope_of(const Curve& curve, double last_strain) {
@@ -53,8 +38,9 @@ double smoothed_at(const Curve& curve, double x, double half) {
     if (first != begin) --first;
     if (last != end) ++last;
   }
-  return line_through(curve.strain, curve.stress, static_cast<std::size_t>(first - begin),
-                      static_cast<std::size_t>(last - begin))
+  const auto from = static_cast<std::size_t>(first - begin), count = static_cast<std::size_t>(last - first);
+  return line_through(std::span(curve.strain).subspan(from, count),
+                      std::span(curve.stress).subspan(from, count))
       .at(x);
 }
 
@@ -168,7 +154,7 @@ void add_loop(Features& features, const Curve& curve, const Loop& loop, double t
     if (curve.stress[k] >= 0.1 * start) residual = curve.strain[k];
   }
   if (strain.size() < 3) return;
-  const double modulus = line_through(strain, stress, 0, strain.size()).slope;
+  const double modulus = line_through(strain, stress).slope;
   features.logarithm("unloading_modulus" + suffix, modulus, strain.back(), strain.front());
   features.difference("residual_strain" + suffix, residual - toe, bottom, top);
   if (loop.end >= curve.strain.size() || modulus <= 0.0) return;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/line_fit.h"
 #include "diagnosis/curve_signature.h"
 #include "diagnosis/displacement_signature.h"
 #include "diagnosis/funicular.h"
@@ -22,13 +23,6 @@ std::vector<double> logarithms(const std::vector<double>& values) {
   std::vector<double> logs;
   for (double v : values) logs.push_back(std::log(v));
   return logs;
-}
-
-double slope(const std::vector<double>& x, const std::vector<double>& y) {
-  const double mx = mean(x), my = mean(y);
-  double xx = 0.0, xy = 0.0;
-  for (std::size_t k = 0; k < x.size(); ++k) xx += (x[k] - mx) * (x[k] - mx), xy += (x[k] - mx) * (y[k] - my);
-  return xx > 0.0 ? xy / xx : 0.0;
 }
 
 bool spread_out(const std::vector<double>& values) {
@@ -80,8 +74,9 @@ void add_lateral(List& list, const Observation& observation, const Columns& colu
     (early ? x : late_x).push_back(strain[k]);
     (early ? y : late_y).push_back(lateral[k]);
   }
-  if (x.size() >= 3) list.difference("lateral_ratio", slope(x, y), 0.0, range);
-  if (late_x.size() >= 3) list.difference("late_lateral_ratio", slope(late_x, late_y), range, last);
+  if (x.size() >= 3) list.difference("lateral_ratio", line_through(x, y).slope, 0.0, range);
+  if (late_x.size() >= 3)
+    list.difference("late_lateral_ratio", line_through(late_x, late_y).slope, range, last);
 }
 
 void add_series(List& list, const Columns& columns) {
@@ -96,7 +91,7 @@ void add_series(List& list, const Columns& columns) {
     x.push_back(std::log(at[k])), y.push_back(std::log(modulus[k]));
   }
   if (!y.empty()) list.ratio("modulus_level", std::exp(mean(y)));
-  if (y.size() >= 2 && x.back() != x.front()) list.difference("modulus_exponent", slope(x, y));
+  if (y.size() >= 2 && x.back() != x.front()) list.difference("modulus_exponent", line_through(x, y).slope);
   if (!beyond.empty()) list.ratio("modulus_beyond_funicular", std::exp(mean(beyond)));
 }
 
@@ -108,7 +103,7 @@ void add_bridges(List& list, const Columns& columns) {
     const auto logs = logarithms(found->second);
     list.ratio(std::string(stiffness) + "_level", std::exp(mean(logs)));
     if (logs.size() >= 4 && spread_out(d))
-      list.difference(std::string(stiffness) + "_exponent", slope(logarithms(d), logs));
+      list.difference(std::string(stiffness) + "_exponent", line_through(logarithms(d), logs).slope);
   }
 }
 
