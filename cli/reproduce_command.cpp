@@ -1,6 +1,8 @@
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <map>
 #include <memory>
-#include <optional>
 
 #include "base/error.h"
 #include "base/progress.h"
@@ -22,8 +24,8 @@ struct Options {
   int realisations = 0;  ///< at most so many; 0: as the sweep files say
 };
 
-constexpr const char* kSweeps[] = {"realisations_a", "realisations_b", "modulus_of_e_p", "modulus_of_content",
-                                   "volume_fraction"};
+constexpr const char* kSweeps[] = {"realisations_a",     "realisations_b", "modulus_of_e_p",
+                                   "modulus_of_content", "sensitivity",    "volume_fraction"};
 
 /// The points of the sweep NAME.toml of the folder, its runs made and its tables written; nothing where the
 /// folder does not hold it.
@@ -56,6 +58,33 @@ std::vector<fs::path> inputs_of(const fs::path& folder) {
   return inputs;
 }
 
+/// The report's sections, of those sweeps that there are.
+std::vector<Section> sections_of(const reproduction::Desk& desk, sweep::Store& store,
+                                 std::map<std::string, std::vector<Point>>& points) {
+  using namespace reproduction;
+  std::vector<Section> sections = {bridges_section(desk)};
+  std::vector<Point> specimens;
+  for (const auto& [name, sweep] : {std::pair("A", "realisations_a"), std::pair("B", "realisations_b")}) {
+    if (points[sweep].empty()) continue;
+    specimens.push_back(points[sweep].front());
+    sections.push_back(specimen_section(desk, name, specimens.back()));
+  }
+  if (!specimens.empty()) {
+    sections.push_back(coordination_section(desk, store, specimens));
+    if (const auto size = size_section(specimens.front(), points["modulus_of_e_p"]))
+      sections.push_back(*size);
+  }
+  if (const auto& found = points["modulus_of_e_p"]; !found.empty())
+    sections.push_back(stiffness_section(desk, found));
+  if (const auto& found = points["modulus_of_content"]; !found.empty())
+    sections.push_back(content_section(desk, found));
+  if (const auto& found = points["sensitivity"]; !found.empty())
+    sections.push_back(sensitivity_section(found));
+  if (const auto& found = points["volume_fraction"]; !found.empty())
+    sections.push_back(volume_fraction_section(desk, found));
+  return sections;
+}
+
 void run(const Options& options) {
   apply(options.common);
   check(options.making);
@@ -63,23 +92,12 @@ void run(const Options& options) {
   const fs::path& out = options.common.out;
   make_folder(out);
   std::vector<std::string> failed;
-  std::vector<std::vector<Point>> points;
-  for (const char* name : kSweeps) points.push_back(points_of(options, name, failed));
+  std::map<std::string, std::vector<Point>> points;
+  for (const char* name : kSweeps) points[name] = points_of(options, name, failed);
 
   const viz::Display display;
-  const reproduction::Desk desk{out, display, from};
-  std::vector<Section> sections = {reproduction::bridges_section(desk)};
-  std::vector<Point> specimens;
-  for (std::size_t s = 0; s < 2; ++s) {
-    if (points[s].empty()) continue;
-    sections.push_back(reproduction::specimen_section(desk, s == 0 ? "A" : "B", points[s].front()));
-    specimens.push_back(points[s].front());
-  }
   sweep::Store store(options.making.store_folder(options.common));
-  if (!specimens.empty()) sections.push_back(reproduction::coordination_section(desk, store, specimens));
-  if (!points[2].empty()) sections.push_back(reproduction::stiffness_section(desk, points[2]));
-  if (!points[3].empty()) sections.push_back(reproduction::content_section(desk, points[3]));
-  if (!points[4].empty()) sections.push_back(reproduction::volume_fraction_section(desk, points[4]));
+  const auto sections = sections_of({out, display, from}, store, points);
   write_text(out / "report.md", reproduction::to_markdown(sections, from));
   if (!failed.empty()) throw ComputationFailed(fmt::format("{}", fmt::join(failed, "; ")));
   say(fmt::format("{} sections in {}", sections.size(), (out / "report.md").string()));

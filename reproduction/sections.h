@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "reproduction/ensemble.h"
@@ -19,6 +20,13 @@ Section specimen_section(const Desk& desk, const std::string& name, const Point&
 /// Bridges per interior bead against the cut-off, diameters drawn, of the specimens that `store` holds the
 /// packings of.
 Section coordination_section(const Desk& desk, sweep::Store& store, std::span<const Point> specimens);
+
+/// A specimen whole beside the smaller cylinder of the series: the point of `series` with its polymer and
+/// gap, or nothing where there is none.
+std::optional<Section> size_section(const Point& whole, std::span<const Point> series);
+
+/// Modulus and limit at the points of a sweep over what the paper leaves open.
+Section sensitivity_section(const std::vector<Point>& points);
 
 /// E against E_p for each gap, and the limit strain against E_p.
 Section stiffness_section(const Desk& desk, const std::vector<Point>& points);
