@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "base/csv.h"
+
 namespace pendular::reproduction {
 namespace {
 
@@ -77,6 +79,13 @@ double stress_kept(const viz::RunFolder& run) {
 
 double band_contrast(const viz::RunFolder& run) {
   return run.result.band ? run.result.band->contrast : kNone;
+}
+
+double volume_change_at_peak(const viz::RunFolder& run) {
+  const auto lateral = read_csv(run.path / "curve.csv", {"lateral_strain"}).numbers("lateral_strain");
+  const auto peak = std::max_element(run.stress.begin(), run.stress.end()) - run.stress.begin();
+  const auto row = static_cast<std::size_t>(peak);
+  return 2.0 * lateral[row] - run.strain[row];
 }
 
 double slope_at_fixed_strain(const viz::RunFolder& run) {

@@ -42,6 +42,10 @@ double broken_share_before_limit(const viz::RunFolder& run);  ///< of all bonds
 double stress_kept(const viz::RunFolder& run);                ///< stress at the end over the highest
 double band_contrast(const viz::RunFolder& run);              ///< NaN where no band was found
 
+/// Change of volume at mid-height at the highest stress, 2 × lateral − axial strain: positive where it
+/// swells.
+double volume_change_at_peak(const viz::RunFolder& run);
+
 /// Least-squares slope of stress over the platen strains 2 to 3 %, Pa: a modulus at a strain that does not
 /// depend on where a curve ends or breaks.
 double slope_at_fixed_strain(const viz::RunFolder& run);

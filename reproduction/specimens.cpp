@@ -45,7 +45,7 @@ void add_band_picture(const Desk& desk, const std::string& name, const Point& po
   viz::RenderOptions options;
   options.view = "shear_strain";
   options.film = false;
-  options.size = {1200, 900};
+  options.size = {800, 600};
   options.provenance = desk.provenance;
   const fs::path folder = desk.out / name;
   const auto summary = viz::render_run(point.runs.front().path, folder, options);
@@ -70,7 +70,8 @@ std::vector<Comparison> comparisons_of(const Point& point) {
        "bonds. How "
        "many touch depends on the positions, and on how the drawn diameters are kept from overlapping, which "
        "one "
-       "sentence of the paper leaves open (docs/model.md, \"Drawing diameters\")."},
+       "sentence of the paper leaves open (docs/model.md, \"Drawing diameters\"). What E and its limit hang "
+       "on: below."},
       {"spread of E among realisations", "little variation",
        e.count > 1 ? fmt::format("{:.1f} %", 100.0 * e.sd / e.mean) : "–", within(e.sd / e.mean, 0.0, 0.05)},
       {"linear limit, strain beyond the toe", "about 4 %", in_words(limit, 0.01, 2) + " %",
