@@ -43,8 +43,8 @@ std::string unmatched_of(const std::vector<Section>& sections) {
   for (const auto& section : sections)
     for (const auto& c : section.comparisons)
       if (!c.matched)
-        text += fmt::format("- {}: {} in the paper, {} here.{}{}\n", c.quantity, c.paper, c.ours,
-                            c.why.empty() ? "" : " ", c.why);
+        text += fmt::format("- {}: {}: {} in the paper, {} here.{}{}\n", section.heading, c.quantity, c.paper,
+                            c.ours, c.why.empty() ? "" : " ", c.why);
   return text.empty() ? "Nothing that the table compares.\n" : text;
 }
 

@@ -76,7 +76,9 @@ std::vector<Comparison> comparisons_of(const Point& point) {
        e.count > 1 ? fmt::format("{:.1f} %", 100.0 * e.sd / e.mean) : "–", within(e.sd / e.mean, 0.0, 0.05)},
       {"linear limit, strain beyond the toe", "about 4 %", in_words(limit, 0.01, 2) + " %",
        within(limit.mean, kPaperLinearLimit - 0.01, kPaperLinearLimit + 0.01),
-       "Read where stress falls 5 % below the line."},
+       "Breaking ends the linear part, and the criterion lets bonds of softer polymer stretch further: the "
+       "stretch is "
+       "√(2 G l/E_p)."},
       {"bonds broken before the linear limit", "few", in_words(broken, 0.01, 2) + " % of all",
        within(broken.mean, 0.0, 0.02)},
       {"shear band", "across the sample",

@@ -14,7 +14,7 @@ TEST(Report, HoldsTablesFiguresAndWhatIsNotMatched) {
   for (const char* part :
        {"## Sample A\n\nSome words.\n", "| E | 10 | 11 | yes |\n", "| Z | 7.4 | 7.0 | **no** |\n",
         "| gap | E |\n| --- | --- |\n| 1 | 2 |\n| 3 | 4 |\n", "![Curves.](a.png)", "[a.csv](a.csv)",
-        "![Band.](b.png)", "- Z: 7.4 in the paper, 7.0 here. Too loose.\n"})
+        "![Band.](b.png)", "- Sample A: Z: 7.4 in the paper, 7.0 here. Too loose.\n"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
   EXPECT_EQ(text.find("never shown"), std::string::npos);
 }
