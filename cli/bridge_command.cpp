@@ -13,6 +13,7 @@
 #include "cli/command.h"
 #include "micromechanics/bridge_fe.h"
 #include "micromechanics/stiffness.h"
+#include "reproduction/paper.h"
 #include "viz/bridge_plot.h"
 
 namespace pendular::cli {
@@ -40,9 +41,8 @@ struct Row {
 
 constexpr std::size_t kMostRows = 1000000;
 
-/// Bridges of the micropipette tests: Hemmerle et al. 2021, Table 1 and Fig. 2.
-constexpr double kPipetteBead = 365e-6, kPipetteModulus = 50e3, kPaperPoissonRatio = 0.49;
-constexpr viz::MeasuredStiffness kPipetteMeasured = {200.0, 800.0, 5.0, 30.0};
+using reproduction::kPaperPipette;
+using reproduction::kPaperPoissonRatio;
 
 // ---- Values of the options ----
 
@@ -122,8 +122,9 @@ std::vector<Row> figure_rows() {
   std::vector<Row> rows;
   for (double gap : {1e-6, 2e-6})
     for (int neck_um = 50; neck_um <= 270; neck_um += 10)
-      rows.push_back(
-          {{1e-6 * neck_um, gap, kPipetteBead, kPipetteBead}, {kPipetteModulus, kPaperPoissonRatio}, {}});
+      rows.push_back({{1e-6 * neck_um, gap, kPaperPipette.bead_diameter, kPaperPipette.bead_diameter},
+                      {kPaperPipette.youngs_modulus, kPaperPoissonRatio},
+                      {}});
   return rows;
 }
 
@@ -223,32 +224,29 @@ std::string beside(double paper, double ours) {
 
 /// Table 1 of the paper beside this program.
 void print_table_1() {
-  const auto of = [](double neck_um, double gap_um, double bead_um, double modulus) {
-    return bridge_stiffness({1e-6 * neck_um, 1e-6 * gap_um, 1e-6 * bead_um, 1e-6 * bead_um},
-                            {modulus, kPaperPoissonRatio});
+  const auto of = [](double neck, double gap, double bead, double modulus) {
+    return bridge_stiffness({neck, gap, bead, bead}, {modulus, kPaperPoissonRatio});
   };
   fmt::print("Hemmerle et al. 2021, Table 1, beside finite elements (gap 2 um, Poisson ratio 0.49)\n\n");
   fmt::print("{:<10} {:>8} {:>6} {:>6}   {:>31}   {:>31}\n", "", "E_p", "d", "D", "kn (N/m)", "kt (N/m)");
   fmt::print("{:<10} {:>8} {:>6} {:>6}   {:>9} {:>9} {:>11}   {:>9} {:>9} {:>11}\n", "", "(Pa)", "(um)",
              "(um)", "paper", "ours", "difference", "paper", "ours", "difference");
-  struct Specimen {
-    const char* name;
-    double modulus, neck_um, bead_um, kn, kt;
-  };
   double worst = 0.0;
-  for (const Specimen& s : {Specimen{"Sample A", 1.5e6, 73.9, 200.9, 5760.0, 325.0},
-                            Specimen{"Sample B", 0.64e6, 72.1, 200.9, 2345.0, 131.0}}) {
-    const BridgeStiffness k = of(s.neck_um, 2.0, s.bead_um, s.modulus);
+  for (const auto& s : reproduction::kPaperSpecimens) {
+    const BridgeStiffness k = of(s.neck_diameter, reproduction::kPaperGap, s.bead_diameter, s.youngs_modulus);
     worst = std::max(worst, k.error_estimate);
-    fmt::print("{:<10} {:>8.3g} {:>6.1f} {:>6.1f}   {}   {}\n", s.name, s.modulus, s.neck_um, s.bead_um,
-               beside(s.kn, k.normal), beside(s.kt, k.tangential));
+    fmt::print("{:<10} {:>8.3g} {:>6.1f} {:>6.1f}   {}   {}\n", s.name, s.youngs_modulus,
+               1e6 * s.neck_diameter, 1e6 * s.bead_diameter, beside(s.normal_stiffness, k.normal),
+               beside(s.tangential_stiffness, k.tangential));
   }
   fmt::print(
       "\nMicromechanical tests (E_p 50 kPa, d 50 to 270 um, D 365 um); measured kn 200 to 800, kt 5 to 30 "
       "N/m\n");
   for (double gap_um : {2.0, 1.0}) {
-    const BridgeStiffness thin = of(50.0, gap_um, 365.0, kPipetteModulus),
-                          wide = of(270.0, gap_um, 365.0, kPipetteModulus);
+    const auto of_tests = [&](double neck) {
+      return of(neck, 1e-6 * gap_um, kPaperPipette.bead_diameter, kPaperPipette.youngs_modulus);
+    };
+    const BridgeStiffness thin = of_tests(kPaperPipette.thinnest), wide = of_tests(kPaperPipette.widest);
     worst = std::max({worst, thin.error_estimate, wide.error_estimate});
     fmt::print("  gap {:.0f} um: ours kn {:.0f} to {:.0f}, kt {:.1f} to {:.1f} N/m\n", gap_um, thin.normal,
                wide.normal, thin.tangential, wide.tangential);
@@ -294,7 +292,9 @@ void run(const Options& options) {
   const auto curves = curves_of(rows);
   const viz::Display display;
   std::optional<viz::MeasuredStiffness> measured;
-  if (options.paper) measured = kPipetteMeasured;
+  if (options.paper)
+    measured = {kPaperPipette.normal_low, kPaperPipette.normal_high, kPaperPipette.tangential_low,
+                kPaperPipette.tangential_high};
   write_png(options.plot, draw_bridge_stiffness(display, curves, measured), to_comment(where_from));
 }
 

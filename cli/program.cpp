@@ -24,6 +24,7 @@ void add_commands(CLI::App& app) {
   add_convert(app);
   add_pipette(app);
   add_sweep(app);
+  add_reproduce(app);
   add_sweep_run(app);
 }
 

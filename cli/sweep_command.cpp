@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "cli/command.h"
+#include "cli/run_making.h"
 #include "sweep/estimate.h"
 #include "sweep/execute.h"
 #include "sweep/make_run.h"
@@ -14,12 +15,12 @@ namespace {
 
 struct Options {
   Common common;
+  RunMaking making;
   bool seed_given = false;
-  fs::path file, store;
-  bool dry_run = false, retry_failed = false;
-  std::string executor = "local", slurm_options;
+  fs::path file;
+  bool dry_run = false;
 
-  fs::path store_folder() const { return store.empty() ? common.out / "store" : store; }
+  fs::path store_folder() const { return making.store_folder(common); }
 };
 
 std::string duration(double seconds) {
@@ -50,7 +51,7 @@ Stock stock_of(const Options& options, const sweep::Plan& plan) {
     const bool failed = status == sweep::RunStatus::failed;
     stock.done += status == sweep::RunStatus::done;
     stock.failed += failed;
-    if (status == sweep::RunStatus::done || (failed && !options.retry_failed)) continue;
+    if (status == sweep::RunStatus::done || (failed && !options.making.retry_failed)) continue;
     stock.left.push_back(plan.requests[k]);
   }
   return stock;
@@ -71,40 +72,9 @@ void tell_plan(const Options& options, const sweep::Plan& plan) {
       rate ? "as the store's runs went" : "a guess until the store has runs", 1e-6 * work.bytes));
 }
 
-/// What failed, in one line.
-std::string failures(const std::vector<sweep::RunOutcome>& outcomes) {
-  constexpr std::size_t kMostTold = 3;
-  std::size_t failed = 0;
-  std::string told;
-  for (const auto& outcome : outcomes) {
-    if (outcome.status != sweep::RunStatus::failed || ++failed > kMostTold) continue;
-    told += fmt::format("; run {}: {}", outcome.hash.substr(0, 12), outcome.message);
-  }
-  if (failed == 0) return "";
-  if (failed > kMostTold) told += "; …";
-  return fmt::format("{} of {} runs failed, see results.csv (--retry-failed makes them again){}", failed,
-                     outcomes.size(), told);
-}
-
-std::vector<sweep::RunOutcome> make_runs(const Options& options, const std::string& name,
-                                         const sweep::Plan& plan) {
-  sweep::Store store(options.store_folder());
-  sweep::ExecuteOptions how;
-  how.cores = options.common.threads;
-  how.retry_failed = options.retry_failed;
-  if (options.executor == "slurm") how.slurm = sweep::SlurmOptions{options.slurm_options};
-  Progress progress(name, 1.0);
-  how.progress = [&](std::size_t done, std::size_t failed, std::size_t total) {
-    progress.update(static_cast<double>(done + failed) / static_cast<double>(total),
-                    fmt::format("{} of {} runs, {} failed", done + failed, total, failed));
-  };
-  return sweep::execute(store, plan.requests, how);
-}
-
 void run(const Options& options) {
   apply(options.common);
-  if (!options.slurm_options.empty() && options.executor != "slurm")
-    throw BadUsage("--slurm-options: expected only with --executor slurm");
+  check(options.making);
   const auto seed = options.seed_given ? std::optional(options.common.seed) : std::nullopt;
   const sweep::SweepFile file = sweep::read_sweep(options.file, seed);
   const sweep::Plan plan = sweep::plan_of(file);
@@ -115,7 +85,7 @@ void run(const Options& options) {
   Provenance from = provenance(options.common, inputs);
   from.seed = file.seed;
 
-  const auto outcomes = make_runs(options, file.name, plan);
+  const auto outcomes = make_runs(options.making, options.common, file.name, plan);
   sweep::write_tables(options.common.out, plan, outcomes, from);
   if (const std::string failed = failures(outcomes); !failed.empty()) throw ComputationFailed(failed);
   say(fmt::format("{}: {} runs done, {}", file.name, outcomes.size(),
@@ -147,15 +117,8 @@ void add_sweep(CLI::App& app) {
       "Runs are made in parallel, kept once under the hash of their content, and gone on with by the same\n"
       "command; results.csv has a row per run, summary.csv one per point.");
   command->add_option("file", options->file, "Sweep file (.toml)")->required();
-  command->add_option("--store", options->store,
-                      "Folder of runs, which sweeps may share; default: OUT/store");
   command->add_flag("--dry-run", options->dry_run, "Say how many runs there are and how long they take");
-  command->add_flag("--retry-failed", options->retry_failed, "Make the runs again that failed before");
-  command->add_flag("--resume")->description("Go on where the sweep stopped; it does so anyway");
-  command->add_option("--executor", options->executor, "Where runs are made: on this machine, or by Slurm")
-      ->check(CLI::IsMember({"local", "slurm"}))
-      ->capture_default_str();
-  command->add_option("--slurm-options", options->slurm_options, "Further options of sbatch, in quotes");
+  add_run_making(*command, options->making);
   add_common(*command, options->common, "Folder for the tables");
   command->callback([options, command] {
     options->seed_given = command->count("--seed") > 0;

@@ -10,6 +10,10 @@
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "viz/annotation.h"
 #include "viz/ticks.h"
 
@@ -70,12 +74,13 @@ vtkPlot* add_plot(vtkChartXY* chart, int kind, const Points& points, const std::
   return plot;
 }
 
-void set_axis(vtkAxis* axis, double low, double high, const Canvas& canvas, double scale) {
-  const Ticks ticks = round_ticks(low * scale, high * scale, 6);
+namespace {
+
+void fix_axis(vtkAxis* axis, double low, double high, const Ticks& ticks, const Canvas& canvas) {
   vtkNew<vtkDoubleArray> positions;
   vtkNew<vtkStringArray> labels;
   for (std::size_t k = 0; k < ticks.values.size(); ++k) {
-    positions->InsertNextValue(ticks.values[k] / scale);
+    positions->InsertNextValue(ticks.values[k]);
     labels->InsertNextValue(ticks.labels[k]);
   }
   axis->SetBehavior(vtkAxis::FIXED);
@@ -90,6 +95,23 @@ void set_axis(vtkAxis* axis, double low, double high, const Canvas& canvas, doub
   axis->GetLabelProperties()->SetFontFamilyToArial();
   axis->GetLabelProperties()->SetColor(0.05, 0.05, 0.05);
   axis->GetLabelProperties()->SetFontSize(canvas.scaled(34));
+}
+
+}  // namespace
+
+void set_axis(vtkAxis* axis, double low, double high, const Canvas& canvas, double scale) {
+  Ticks ticks = round_ticks(low * scale, high * scale, 6);
+  for (double& value : ticks.values) value /= scale;
+  fix_axis(axis, low, high, ticks, canvas);
+}
+
+void set_log_axis(vtkAxis* axis, double low, double high, const Canvas& canvas) {
+  Ticks ticks;
+  for (double power = std::ceil(low - 1e-9); power <= high + 1e-9; power += 1.0) {
+    ticks.values.push_back(power);
+    ticks.labels.push_back(fmt::format("{:g}", std::pow(10.0, power)));
+  }
+  fix_axis(axis, low, high, ticks, canvas);
 }
 
 }  // namespace pendular::viz

@@ -58,4 +58,7 @@ vtkPlot* add_plot(vtkChartXY* chart, int kind, const Points& points, const std::
 /// axis.
 void set_axis(vtkAxis* axis, double low, double high, const Canvas& canvas, double scale = 1.0);
 
+/// Fixes an axis on which places are decadic logarithms to [low, high], with a tick at each whole power.
+void set_log_axis(vtkAxis* axis, double low, double high, const Canvas& canvas);
+
 }  // namespace pendular::viz

@@ -62,6 +62,7 @@ RunResult read_result(const fs::path& file) {
   result.band = shear_band(json, file);
   result.beads = count(json, "beads", file);
   result.bonds = count(json, "bonds", file);
+  result.coordination = number(json, "coordination/bridges_per_interior_bead", file);
   if (json.contains("provenance")) result.provenance = json["provenance"];
   return result;
 }
@@ -84,7 +85,7 @@ double ShearBand::angle_to_axis() const {
   return std::asin(std::clamp(std::abs(normal.normalized().z()), 0.0, 1.0));
 }
 
-RunFolder read_run_folder(const fs::path& path) {
+RunFolder read_run_curves(const fs::path& path) {
   if (!fs::is_directory(path)) bad_input("{}: found no folder, expected a run folder", path.string());
   RunFolder run;
   run.path = path;
@@ -98,6 +99,11 @@ RunFolder read_run_folder(const fs::path& path) {
   std::sort(run.break_strain.begin(), run.break_strain.end());
   run.result = read_result(path / "result.json");
   run.frames = sorted_entries(path / "frames", "frame_", ".vtp");
+  return run;
+}
+
+RunFolder read_run_folder(const fs::path& path) {
+  RunFolder run = read_run_curves(path);
   if (run.frames.empty())
     bad_input("{}: found no frame_*.vtp, expected at least one", (path / "frames").string());
   return run;

@@ -29,7 +29,8 @@ struct RunResult {
   std::optional<double> peak_strain, peak_stress;  ///< beyond the toe; Pa
   std::optional<ShearBand> band;
   std::optional<std::int64_t> beads, bonds;
-  nlohmann::ordered_json provenance;  ///< null where absent
+  std::optional<double> coordination;  ///< bridges per interior bead before loading
+  nlohmann::ordered_json provenance;   ///< null where absent
 };
 
 /// One simulated compression: its curve, breaks and frames.
@@ -44,6 +45,9 @@ struct RunFolder {
 /// Reads everything but the frames' content. BadInput where the folder, its curve, its result or its frames
 /// are missing, empty or broken. events.csv may be missing.
 RunFolder read_run_folder(const fs::path& path);
+
+/// The same of a run that may have kept no frames, as most runs of a sweep.
+RunFolder read_run_curves(const fs::path& path);
 
 /// The run folders in `path`: `path` itself, or its subfolders realisation_01, realisation_02 … in order.
 std::vector<fs::path> realisations(const fs::path& path);
