@@ -18,7 +18,8 @@ TEST(PlatenTilt, IsAPlaneThatTouchesTheHighestBead) {
 
 TEST(PlatenTilt, ChainsTouchOneRowAfterTheOther) {
   // Three rows along x, each a slope times the pitch later than the one before: forces add up as they touch.
-  const Sample sample = with("platen_tilt", 0.05, 1e-3);
+  Sample sample = with("platen_tilt", 0.05, 1e-3);
+  sample.compression.relax_to = 1e-5;
   const auto done = run(chains(), sample);
   const double k = chain_stiffness(5760.0), pitch = (1.0 + kGap) * kBeadDiameter;
   const double height = (5.0 * (1.0 + kGap) + 1.0) * kBeadDiameter,
@@ -28,7 +29,7 @@ TEST(PlatenTilt, ChainsTouchOneRowAfterTheOther) {
     const double travel = row.strain * done.result["specimen"]["height_um"].get<double>() * 1e-6;
     double force = 0.0;
     for (int n = 0; n < 3; ++n) force += 3.0 * k * std::max(0.0, travel - n * step);
-    EXPECT_NEAR(row.stress * section, force, 2e-3 * k * height * 1e-3) << row.strain;
+    EXPECT_NEAR(row.stress * section, force, 1e-3 * 9.0 * k * height * 2e-3) << row.strain;
   }
   EXPECT_LT(done.rows.back().stress, 0.95 * run(chains(), without(sample)).rows.back().stress);
 }

@@ -24,7 +24,7 @@ TEST(PositionError, OverlapsThatItMakesDoNotPush) {
   double deepest = 0.0;
   for (const auto& pair : s.pairs) deepest = std::min(deepest, gap(s, pair));
   EXPECT_LT(deepest, -1e-6);
-  EXPECT_EQ(energies(s).elastic, 0.0);
+  EXPECT_LT(energies(s).elastic, 1e-30);  // rounding; a bond at its limit holds 1e-6
 }
 
 TEST(PositionError, TheMeasurementReadsTheGivenBeads) {

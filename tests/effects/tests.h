@@ -16,9 +16,12 @@ using pendular::test::ScratchFolder;
 
 inline constexpr double kBeadDiameter = 200.9e-6, kGap = 0.03;  // of the columns below, m and over D
 
-/// Nine chains of bonds between the platens, and their stiffness when each bond has this one, N/m.
+/// Nine chains of five bonds between the platens, bead k in chain k % 9, not joined to each other; and the
+/// stiffness of one when each bond has this one, N/m.
 inline Packing chains() {
-  return columns(3, 6, kGap);
+  Packing packing = columns(3, 6, kGap);
+  std::erase_if(packing.bridges, [](const Bridge& bridge) { return bridge.i % 9 != bridge.j % 9; });
+  return packing;
 }
 inline double chain_stiffness(double kn) {
   return 1.0 / (2.0 / 57600.0 + 5.0 / kn);
