@@ -31,23 +31,5 @@ TEST(BondDamage, LowersThePeakAndBalancesWork) {
   EXPECT_LT(std::fabs(work_error(done)), 2e-3);
 }
 
-TEST(BondDamage, AChainUnloadsStraightToTheOrigin) {
-  Sample sample = with("bond_damage", 1.0, 0.015);
-  sample.compression.control = "speed";
-  sample.compression.rows_per_strain = 1e4;
-  sample.compression.unload_at = {0.014};
-  const auto rows = run(chains(), sample).rows;
-  std::size_t turn = 0;
-  while (turn + 1 < rows.size() && rows[turn + 1].strain > rows[turn].strain) ++turn;
-  ASSERT_GT(turn, 100u);
-  ASSERT_LT(turn + 40, rows.size());
-  const auto slope = [&](std::size_t a, std::size_t b) {
-    return (rows[b].stress - rows[a].stress) / (rows[b].strain - rows[a].strain);
-  };
-  const double secant = rows[turn].stress / rows[turn].strain;
-  EXPECT_NEAR(slope(turn + 40, turn), secant, 0.05 * secant);
-  EXPECT_LT(slope(turn - 40, turn), 0.8 * secant);
-}
-
 }  // namespace
 }  // namespace pendular::effects::test
