@@ -155,6 +155,22 @@ const NumberKey& find_number_key(const std::string& name) {
             nearest_name(name, sample_key_names()));
 }
 
+constexpr std::string_view kEffects = "effects.";
+
+bool is_effect(const std::string& name) {
+  return name.starts_with(kEffects);
+}
+
+/// Effects are written back as bare TOML keys.
+void set_effect(Sample& sample, const std::string& name, double magnitude, const std::string& where) {
+  const std::string effect = name.substr(kEffects.size());
+  if (effect.empty() || effect.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
+    bad_input("{}: found \"{}\", expected an effect's name of small letters, digits and _", where, effect);
+  if (!std::isfinite(magnitude)) bad_input("{}: found {}, expected a finite number", where, magnitude);
+  sample.effects.erase(effect);
+  if (magnitude != 0.0) sample.effects[effect] = magnitude;
+}
+
 template <typename T>
 const T& expect(const SampleValue& value, const std::string& where, const char* expected) {
   if (const T* held = std::get_if<T>(&value)) return *held;
@@ -222,6 +238,7 @@ void set_sample_key(Sample& sample, const std::string& name, const SampleValue& 
       key.field(sample) = expect<bool>(value, where, "true or false");
       return;
     }
+  if (is_effect(name)) return set_effect(sample, name, expect<double>(value, where, "a number"), where);
   if (name == "specimen.shape") {
     if (value != SampleValue("cylinder")) bad_input("{}: expected \"cylinder\"", where);
     return;
@@ -231,10 +248,15 @@ void set_sample_key(Sample& sample, const std::string& name, const SampleValue& 
 }
 
 void set_sample_key(Sample& sample, const std::string& name, double value) {
+  if (is_effect(name)) return set_effect(sample, name, value, name);
   find_number_key(name).set(sample, value, name);
 }
 
 double sample_key(const Sample& sample, const std::string& name) {
+  if (is_effect(name)) {
+    const auto effect = sample.effects.find(name.substr(kEffects.size()));
+    return effect == sample.effects.end() ? 0.0 : effect->second;
+  }
   const auto value = find_number_key(name).get(sample);
   if (!value) bad_input("{} is not set in this sample", name);
   return *value;
@@ -277,6 +299,8 @@ std::vector<SampleSetting> sample_settings(const Sample& sample) {
   for (const auto& key : word_keys()) settings.emplace_back(key.name, key.field(copy));
   for (const auto& key : strains_keys()) settings.emplace_back(key.name, key.field(copy));
   for (const auto& key : switch_keys()) settings.emplace_back(key.name, key.field(copy));
+  for (const auto& [effect, magnitude] : sample.effects)
+    settings.emplace_back(std::string(kEffects) + effect, magnitude);
   return settings;
 }
 

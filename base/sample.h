@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -99,6 +100,11 @@ struct Sample {
     double air_grey = 0.25;           ///< grey value of air over full scale
     double glass_grey = 0.60;         ///< grey value of glass over full scale
   } phantom;
+
+  /// What the specimen is taken to have that the paper's model has not: the file's [effects], name = magnitude.
+  /// Any name is read here; the library of effects checks names and ranges. Magnitude 0 is the model itself
+  /// and not kept.
+  std::map<std::string, double> effects;
 };
 
 /// One key of the sample file.
@@ -108,7 +114,7 @@ struct SampleKey {
   std::string meaning;
 };
 
-/// Every numeric key, in the file's order.
+/// Every numeric key, in the file's order; those of [effects], whose names are not known here, aside.
 std::vector<SampleKey> sample_keys();
 
 /// A key's value in the unit of its name: a number, true or false, a word, or strains.
@@ -117,7 +123,7 @@ using SampleValue = std::variant<double, bool, std::string, std::vector<double>>
 /// A key by its dotted name, and a value for it.
 using SampleSetting = std::pair<std::string, SampleValue>;
 
-/// The names of all keys, numeric or not.
+/// The names of all these keys, numeric or not.
 std::vector<std::string> sample_key_names();
 
 /// Reads and checks a sample file. BadInput names file, line, key, what was found and what was expected;

@@ -3,7 +3,8 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "cli/command.h"
-#include "dem_core/compress.h"
+#include "effects/compress.h"
+#include "effects/list.h"
 #include "packing/vtp.h"
 
 namespace pendular::cli {
@@ -64,12 +65,13 @@ void run(const Options& options) {
   apply(options.common);
   const Packing packing = read_packing(options.packing);
   const Sample sample = read_sample(options.sample);
+  effects::check_effects(sample, options.sample.string());
   CompressOptions compress_options;
   compress_options.resume = options.resume;
   compress_options.provenance = provenance(options.common, {options.packing, options.sample});
   if (options.realisations == 1) {
-    const auto done =
-        compress(realise(packing, sample, options.common.seed), sample, options.common.out, compress_options);
+    const auto done = effects::compress_with_effects(packing, sample, options.common.seed, options.common.out,
+                                                     compress_options);
     return say(in_words(done.result));
   }
   if (sample.beads.diameters == "measured")
@@ -80,7 +82,8 @@ void run(const Options& options) {
     compress_options.provenance.seed = options.common.seed + static_cast<std::uint64_t>(k) - 1;
     const auto folder = options.common.out / fmt::format("realisation_{:02d}", k);
     results.push_back(
-        compress(realise(packing, sample, compress_options.provenance.seed), sample, folder, compress_options)
+        effects::compress_with_effects(packing, sample, compress_options.provenance.seed, folder,
+                                       compress_options)
             .result);
     say(fmt::format("realisation {}: {}", k, in_words(results.back())));
   }

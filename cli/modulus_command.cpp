@@ -4,8 +4,9 @@
 
 #include "base/progress.h"
 #include "cli/command.h"
-#include "dem_core/compress.h"
 #include "dem_core/linear_response.h"
+#include "effects/compress.h"
+#include "effects/list.h"
 #include "packing/vtp.h"
 
 namespace pendular::cli {
@@ -54,8 +55,9 @@ void run(const Options& options) {
   apply(options.common);
   require_writable(options.common.out);
   const Sample sample = read_sample(options.sample);
-  const Packing packing = realise(read_packing(options.packing), sample, options.common.seed);
-  const Simulation simulation = build_simulation(packing, sample);
+  effects::check_effects(sample, options.sample.string());
+  const auto specimen = effects::actual_specimen(read_packing(options.packing), sample, options.common.seed);
+  const Simulation simulation = effects::actual_simulation(specimen);
   const LinearResponse response = linear_response(simulation, {options.strain});
   auto json = to_json(response, simulation, options.strain);
   json["provenance"] = to_json(provenance(options.common, {options.packing, options.sample}));

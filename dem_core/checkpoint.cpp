@@ -10,7 +10,7 @@ namespace pendular {
 namespace {
 
 constexpr char kNewest[] = "checkpoint", kPrevious[] = "checkpoint.previous", kNext[] = "checkpoint.next";
-constexpr char kMagic[] = "pendular checkpoint 4\n";
+constexpr char kMagic[] = "pendular checkpoint 5\n";
 
 struct Writer {
   std::string bytes;
@@ -79,12 +79,12 @@ void visit(Archive& a, Pair& p) {
 
 template <typename Archive>
 void visit(Archive& a, Bond& b) {
-  fields(a, b.i, b.j, b.broken);
+  fields(a, b.i, b.j, b.broken, b.height);
 }
 
 template <typename Archive>
 void visit(Archive& a, Platen& p) {
-  fields(a, p.z, p.velocity, p.normal_sign, p.slip, p.closing, p.force);
+  fields(a, p.z, p.velocity, p.normal_sign, p.slip, p.closing, p.force, p.relief);
 }
 
 template <typename Archive>
@@ -105,9 +105,10 @@ void visit(Archive& a, LawParameters& l) {
 
 template <typename Archive>
 void visit(Archive& a, Simulation& s) {
-  fields(a, s.law, s.dt, s.steps, s.beads, s.pairs, s.bonds, s.bottom, s.top, s.initial_height, s.section,
+  fields(a, s.law, s.dt, s.steps, s.beads, s.pairs, s.bonds, s.bond_memory, s.bottom, s.top, s.initial_height, s.section,
          s.listing.at, s.listing.margin, s.listing.bottom_at, s.listing.top_at, s.listing.platen_margin,
-         s.events, s.work.platen, s.work.damped, s.work.slipped, s.work.broken, s.work.halted);
+         s.events, s.work.platen, s.work.damped, s.work.slipped, s.work.broken, s.work.halted,
+         s.work.given);
 }
 
 template <typename Archive>

@@ -25,6 +25,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Of the platen, between two changes of bonds that evolve: a hundredth of the strains at which bonds soften or
+// relax.
+constexpr double kStrainOfChanges = 1e-4;
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -38,9 +42,11 @@ std::vector<std::int64_t> bead_ids(const Packing& packing) {
 /// One compression test from its first to its last step.
 class Test {
  public:
-  Test(RunState& state, const Sample& sample, const fs::path& folder, std::vector<std::int64_t> ids)
+  Test(RunState& state, const Sample& sample, const BondEvolution& evolution, const fs::path& folder,
+       std::vector<std::int64_t> ids)
       : state_(state),
         sample_(sample),
+        evolution_(evolution),
         folder_(folder),
         ids_(std::move(ids)),
         program_(state.simulation, sample),
@@ -48,6 +54,8 @@ class Test {
     const Simulation& s = state_.simulation;
     const double row_time = s.initial_height / (sample.compression.rows_per_strain * program_.speed());
     steps_per_row_ = std::max(1, static_cast<int>(std::lround(row_time / s.dt)));
+    const double change_time = kStrainOfChanges * s.initial_height / program_.speed();
+    steps_per_change_ = std::max<std::int64_t>(1, std::llround(change_time / s.dt));
   }
 
   /// Makes the simulation true, for a checkpoint.
@@ -67,6 +75,8 @@ class Test {
     Simulation& s = state_.simulation;
     program_.drive(s, state_.platen);
     stepper_.step();
+    if (evolution_.change && s.steps % steps_per_change_ == 0)
+      stepper_.change_bonds(evolution_, static_cast<double>(steps_per_change_) * s.dt);
     require_finite();
     auto& open = state_.open_row;
     open.strain += s.strain();
@@ -84,7 +94,7 @@ class Test {
     const auto& asked = sample_.compression;
     const double left = asked.max_strain - s.strain();
     const bool last = left <= (1.0 + 1e-9) * asked.relax_increment;
-    if (!compress_and_relax(s, stepper_, {last ? left : asked.relax_increment, asked.relax_to})) {
+    if (!relax_by({last ? left : asked.relax_increment, asked.relax_to})) {
       state_ = before;
       return stepper_.load();
     }
@@ -92,6 +102,15 @@ class Test {
     state_.open_row = {s.strain(), s.top.force, s.bottom.force, 1};
     close_row();
     if (last || program_.ended(s, state_.platen, last_stress())) finish();
+  }
+
+  /// Bonds change at the end of an increment by the time that it takes at the sample's speed, once.
+  bool relax_by(const Increment& increment) {
+    Simulation& s = state_.simulation;
+    if (!compress_and_relax(s, stepper_, increment)) return false;
+    if (!evolution_.change) return true;
+    stepper_.change_bonds(evolution_, increment.strain * s.initial_height / program_.speed());
+    return come_to_rest(s, stepper_, increment.unbalanced).has_value();
   }
 
   void close_row() {
@@ -138,7 +157,7 @@ class Test {
     const Simulation& s = state_.simulation;
     double mass = 0.0;
     for (double m : s.beads.mass) mass += m;
-    const double brought = std::fabs(s.work.platen) + mass * program_.speed() * program_.speed();
+    const double brought = std::fabs(s.work.platen) + std::max(s.work.given, 0.0) + mass * program_.speed() * program_.speed();
     if (now.kinetic + now.elastic <= 10.0 * brought) return;
     throw ComputationFailed(
         fmt::format("compress: motion diverged at strain {:.4f}: found {:.3g} J in the specimen, "
@@ -170,11 +189,13 @@ class Test {
 
   RunState& state_;
   const Sample& sample_;
+  const BondEvolution& evolution_;
   fs::path folder_;
   std::vector<std::int64_t> ids_;
   PlatenProgram program_;
   Stepper stepper_;
   int steps_per_row_ = 1;
+  std::int64_t steps_per_change_ = 1;
   double output_seconds_ = 0.0;
 };
 
@@ -192,11 +213,11 @@ std::string progress_note(const RunState& state, double stress, double rate) {
                      1e-6 * rate);
 }
 
-Performance run(RunState& state, const Sample& sample, const fs::path& folder, std::vector<std::int64_t> ids,
-                const std::string& identity, double checkpoint_every) {
+Performance run(RunState& state, const Sample& sample, const CompressOptions& options, const fs::path& folder,
+                std::vector<std::int64_t> ids, const std::string& identity) {
   const auto start = Clock::now();
   const std::int64_t first_step = state.simulation.steps;
-  Test test(state, sample, folder, std::move(ids));
+  Test test(state, sample, options.evolution, folder, std::move(ids));
   Progress progress("compress", 1.0);
   double checkpoint_seconds = 0.0;
   const auto so_far = [&] {
@@ -221,7 +242,8 @@ Performance run(RunState& state, const Sample& sample, const fs::path& folder, s
     }
     if (state.open_row.steps != 0) continue;
     progress.update(test.done(), progress_note(state, test.last_stress(), so_far().rate()));
-    if (!state.finished && seconds_since(last_checkpoint) >= checkpoint_every) keep();
+    if (!state.finished && seconds_since(last_checkpoint) >= options.checkpoint_every)
+      keep();
   }
   keep();
   return so_far();
@@ -283,12 +305,15 @@ CompressResult compress(const Packing& packing, const Sample& sample, const fs::
   } else {
     state.simulation = build_simulation(packing, sample);
     check_specimen(packing, state.simulation, sample.compression.max_strain);
+    state.simulation.bond_memory.assign(options.evolution.memory * state.simulation.bonds.size(), 0.0);
+    if (options.prepare) options.prepare(state.simulation);
   }
   make_folder(folder / "frames");
   if (!kept) remove_earlier_run(folder);
   const auto ids = bead_ids(packing);
-  const Performance performance = run(state, sample, folder, ids, identity, options.checkpoint_every);
+  const Performance performance = run(state, sample, options, folder, ids, identity);
   warn_unless_quasi_static(state.rows);
+  if (options.read_rows) options.read_rows(state.rows, state.simulation);
 
   CompressResult result;
   result.rows = state.rows;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
 #include "base/provenance.h"
 #include "base/sample.h"
+#include "dem_core/bond_evolution.h"
 #include "dem_core/curve.h"
 #include "packing/packing.h"
 
@@ -20,6 +22,12 @@ struct CompressOptions {
   bool resume = false;             ///< go on from the folder's checkpoint, if there is one
   double checkpoint_every = 30.0;  ///< wall time between checkpoints, s
   Provenance provenance;
+
+  /// Where a run departs from the paper's model; without them it does not.
+  std::function<void(Simulation&)> prepare;  ///< changes the specimen before its test
+  BondEvolution evolution;                   ///< of its bonds; empty: they stay as they are
+  /// What the instruments make of the true rows; the result and its curve are of what this leaves.
+  std::function<void(std::vector<CurveRow>&, const Simulation&)> read_rows;
 };
 
 struct CompressResult {

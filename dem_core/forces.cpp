@@ -9,9 +9,10 @@ namespace {
 std::vector<PlatenContact> platen_contacts(const Platen& platen, const Simulation& simulation) {
   const auto& beads = simulation.beads;
   std::vector<PlatenContact> contacts;
-  Platen one = {platen.z, platen.velocity, platen.normal_sign, {Vec3::Zero()}, {0.0}, 0.0};
+  Platen one = {platen.z, platen.velocity, platen.normal_sign, {Vec3::Zero()}, {0.0}, 0.0, {0.0}};
   for (std::size_t k = 0; k < beads.size(); ++k) {
-    if (platen.normal_sign * (beads.position[k].z() - platen.z) > beads.radius[k]) continue;
+    if (platen.gap(k, beads.position[k].z(), beads.radius[k]) > 0.0) continue;
+    one.relief[0] = platen.relief[k];
     one.slip[0] = platen.slip[k];
     one.closing[0] = platen.closing[k];
     contacts.push_back({k, touch_platen(one, 0, beads.motion(k), simulation.law, simulation.dt).force});

@@ -26,8 +26,8 @@ Joint pair_joint(const Simulation& s, const Pair& pair) {
 Joint platen_joint(const Simulation& s, const Platen& platen, int node, std::size_t bead) {
   const double radius = s.beads.radius[bead];
   Joint joint;
-  joint.distance = platen.normal_sign * (s.beads.position[bead].z() - platen.z);
-  joint.gap = joint.distance - radius;
+  joint.gap = platen.gap(bead, s.beads.position[bead].z(), radius);
+  joint.distance = joint.gap + radius;
   joint.place.i = static_cast<int>(bead);
   joint.place.j = node;
   joint.place.n = Vec3(0.0, 0.0, platen.normal_sign);

@@ -6,7 +6,7 @@
 
 namespace pendular {
 
-/// One horizontal platen: a rigid wall that only touches.
+/// One platen: a rigid wall that only touches, horizontal but for its relief.
 struct Platen {
   double z = 0.0;               ///< of the face, m
   double velocity = 0.0;        ///< along z, m/s
@@ -14,6 +14,14 @@ struct Platen {
   std::vector<Vec3> slip;       ///< tangential displacement per bead since touch, m
   std::vector<double> closing;  ///< per bead, the speed that damping opposed in the last step, m/s
   double force = 0.0;           ///< on the platen, compression positive, N, in the last step
+  /// Per bead, by how much the face lies back where the bead is, m. It pushes along z all the same: what is
+  /// left out of a slope is small of second order, and friction holds what is of first.
+  std::vector<double> relief;
+
+  /// Between the face and bead k whose centre is at height z, m.
+  double gap(std::size_t k, double z_of_bead, double radius) const {
+    return normal_sign * (z_of_bead - z) + relief[k] - radius;
+  }
 };
 
 /// What a platen does to one bead in one step.
@@ -30,7 +38,7 @@ inline PlatenForce touch_platen(Platen& platen, std::size_t k, const BeadMotion&
   PlatenForce out;
   Vec3& slip = platen.slip[k];
   double& last_closing = platen.closing[k];
-  const double gap = platen.normal_sign * (bead.position.z() - platen.z) - bead.radius;
+  const double gap = platen.gap(k, bead.position.z(), bead.radius);
   if (gap > 0.0 && last_closing == 0.0 && slip.isZero(0.0)) return out;
   const Vec3 n(0.0, 0.0, platen.normal_sign);
   const double arm = bead.radius + 0.5 * gap;

@@ -37,12 +37,18 @@ std::optional<Relaxed> compress_and_relax(Simulation& simulation, Stepper& stepp
   for (int k = 0; k < kTravelSteps; ++k) stepper.step();
   stepper.halt();
 
-  Relaxed done{kTravelSteps, 0.0};
+  auto done = come_to_rest(simulation, stepper, increment.unbalanced);
+  if (done) done->steps += kTravelSteps;
+  return done;
+}
+
+std::optional<Relaxed> come_to_rest(Simulation& simulation, Stepper& stepper, double unbalanced) {
+  Relaxed done;
   do {
     if (!swing(stepper, done.steps)) return std::nullopt;
     stepper.store();
     done.unbalanced = unbalanced_force(simulation, forces(simulation));
-  } while (done.unbalanced > increment.unbalanced && done.steps < kMostSteps);
+  } while (done.unbalanced > unbalanced && done.steps < kMostSteps);
   return done;
 }
 

@@ -19,10 +19,13 @@ struct Relaxed {
       0.0;  ///< unbalanced_force() at the end; above the one asked for where it would not rest
 };
 
-/// Moves the platen by one increment and lets the specimen come to rest: all beads are set in motion with the
-/// mean deformation, and once the platen has arrived, are halted each time that their kinetic energy has
-/// passed a maximum (kinetic damping: Cundall 1976; Barnes 1999, Int. J. Space Struct. 14, 89), until the
-/// forces balance. No speed enters the result, and an oscillation is halted before it overshoots. What
+/// Lets the specimen come to rest between platens that stand still: it is halted each time that its kinetic
+/// energy has passed a maximum (kinetic damping: Cundall 1976; Barnes 1999, Int. J. Space Struct. 14, 89),
+/// until unbalanced_force() is no larger than asked for. Nothing where the user interrupts.
+std::optional<Relaxed> come_to_rest(Simulation& simulation, Stepper& stepper, double unbalanced);
+
+/// Moves the platen by one increment, all beads set in motion with the mean deformation, and lets the specimen
+/// come to rest once it has arrived. No speed enters the result, and an oscillation is halted before it overshoots. What
 /// halting takes out, less what setting in motion brought, is booked as Work::halted.
 ///
 /// Nothing where the user interrupts: simulation and stepper are then in between and of no use.

@@ -94,7 +94,8 @@ nlohmann::ordered_json relaxation_json(const std::vector<CurveRow>& rows,
 nlohmann::ordered_json work_balance_json(const Simulation& simulation) {
   const Energies now = energies(simulation);
   const Work& work = simulation.work;
-  const double found = now.elastic + now.kinetic + work.damped + work.slipped + work.broken + work.halted;
+  const double found = now.elastic + now.kinetic + work.damped + work.slipped + work.broken + work.halted -
+                       work.given;
   return {{"platen_j", work.platen},
           {"elastic_j", now.elastic},
           {"kinetic_j", now.kinetic},
@@ -102,6 +103,7 @@ nlohmann::ordered_json work_balance_json(const Simulation& simulation) {
           {"slipped_j", work.slipped},
           {"released_by_breaking_j", work.broken},
           {"halted_j", work.halted},
+          {"given_by_bonds_j", work.given},
           {"relative_error", work.platen != 0.0 ? (work.platen - found) / work.platen : 0.0}};
 }
 

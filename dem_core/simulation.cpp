@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "dem_core/bond_bodies.h"
 #include "micromechanics/bridge_body.h"
 #include "micromechanics/stiffness.h"
 #include "packing/neighbours.h"
@@ -51,43 +52,30 @@ LawParameters law_parameters(const Sample& sample, const BondStiffness& bond) {
   return law;
 }
 
-/// The body of a bridge. Its neck is its own where the sample asks for that and it was measured, the mean one
-/// otherwise; thinner than both beads.
-BridgeBody bridge_body(const Packing& packing, const Bridge& bridge, const Sample& sample) {
-  const Bead &a = packing.beads[bridge.i], &b = packing.beads[bridge.j];
-  const bool own = sample.bridges.stiffness == "per_bridge" && bridge.diameter > 0.0;
-  const double neck = own ? bridge.diameter : sample.bridges.diameter;
-  return {std::min(neck, 0.99 * std::min(a.diameter, b.diameter)), gap(a, b), a.diameter, b.diameter};
-}
-
-PairProperties bond_properties(const BridgeBody& body, const BondStiffness& stiffness, const Sample& sample) {
+PairProperties bond_properties(const BridgeBody& body, double height, const BondStiffness& stiffness,
+                               const Sample& sample) {
   PairProperties pair;
   pair.rest = body.gap;
   pair.touch = std::min(0.0, pair.rest);
   pair.kn = stiffness.normal;
   pair.kt = stiffness.tangential;
-  pair.break_limit = 2.0 * sample.bridges.interfacial_energy *
-                     rim_height(body.gap, body.diameter_i, body.diameter_j, body.neck_diameter) /
-                     sample.bridges.youngs_modulus;
+  pair.break_limit = 2.0 * sample.bridges.interfacial_energy * height / sample.bridges.youngs_modulus;
   return pair;
 }
 
 void add_bonds(Simulation& simulation, const Packing& packing, const Sample& sample) {
-  std::vector<Bridge> standing;
-  std::vector<BridgeBody> bodies;
-  for (const auto& bridge : packing.bridges) {
-    if (bridge.state != BridgeState::candidate && bridge.state != BridgeState::bridge) continue;
-    standing.push_back(bridge);
-    bodies.push_back(bridge_body(packing, bridge, sample));
-  }
+  const auto standing = standing_bridges(packing);
+  const auto bodies = bond_bodies(packing, standing, sample);
   const auto stiffness = bond_stiffnesses(sample, bodies);
   for (std::size_t k = 0; k < standing.size(); ++k) {
     Pair pair;
     pair.i = standing[k].i;
     pair.j = standing[k].j;
     pair.bond = static_cast<int>(k);
-    pair.properties = bond_properties(bodies[k], stiffness[k], sample);
-    simulation.bonds.push_back({pair.i, pair.j, false});
+    const BridgeBody& body = bodies[k];
+    const double height = rim_height(body.gap, body.diameter_i, body.diameter_j, body.neck_diameter);
+    pair.properties = bond_properties(body, height, stiffness[k], sample);
+    simulation.bonds.push_back({pair.i, pair.j, false, height});
     simulation.pairs.push_back(pair);
   }
 }
@@ -114,28 +102,6 @@ void add_overlapping_pairs(Simulation& simulation, const Packing& packing) {
 void sort_pairs(std::vector<Pair>& pairs) {
   std::sort(pairs.begin(), pairs.end(),
             [](const Pair& a, const Pair& b) { return IndexPair(a.i, a.j) < IndexPair(b.i, b.j); });
-}
-
-void place_platens(Simulation& simulation, double speed) {
-  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  const auto& beads = simulation.beads;
-  for (std::size_t k = 0; k < beads.size(); ++k) {
-    lowest = std::min(lowest, beads.position[k].z() - beads.radius[k]);
-    highest = std::max(highest, beads.position[k].z() + beads.radius[k]);
-  }
-  const std::vector<Vec3> no_slip(beads.size(), Vec3::Zero());
-  const std::vector<double> no_closing(beads.size(), 0.0);
-  simulation.bottom = {lowest, speed, 1.0, no_slip, no_closing, 0.0};
-  simulation.top = {highest, 0.0, -1.0, no_slip, no_closing, 0.0};
-  simulation.initial_height = highest - lowest;
-}
-
-/// A stated fraction of √(m_min/k_max) (guide: derived from the data, never asked of the user).
-double time_step(const Simulation& simulation, double fraction) {
-  const double lightest = *std::min_element(simulation.beads.mass.begin(), simulation.beads.mass.end());
-  double stiffest = simulation.law.k_glass;
-  for (const auto& pair : simulation.pairs) stiffest = std::max(stiffest, pair.properties.kn);
-  return fraction * std::sqrt(lightest / stiffest);
 }
 
 /// Of a body at this speed.
@@ -171,6 +137,30 @@ double platen_speed(const Sample& sample) {
          std::sqrt(k_glass / ball_mass(sample.beads.density, sample.beads.diameter));
 }
 
+void place_platens(Simulation& simulation, double speed) {
+  const auto& beads = simulation.beads;
+  Platen &bottom = simulation.bottom, &top = simulation.top;
+  bottom.z = std::numeric_limits<double>::infinity(), top.z = -bottom.z;
+  for (std::size_t k = 0; k < beads.size(); ++k) {
+    bottom.z = std::min(bottom.z, beads.position[k].z() - beads.radius[k] + bottom.relief[k]);
+    top.z = std::max(top.z, beads.position[k].z() + beads.radius[k] - top.relief[k]);
+  }
+  bottom.velocity = speed;
+  for (Platen* platen : {&bottom, &top}) {
+    platen->slip.assign(beads.size(), Vec3::Zero());
+    platen->closing.assign(beads.size(), 0.0);
+    platen->force = 0.0;
+  }
+  simulation.initial_height = top.z - bottom.z;
+}
+
+double time_step(const Simulation& simulation, double fraction) {
+  const double lightest = *std::min_element(simulation.beads.mass.begin(), simulation.beads.mass.end());
+  double stiffest = simulation.law.k_glass;
+  for (const auto& pair : simulation.pairs) stiffest = std::max(stiffest, pair.properties.kn);
+  return fraction * std::sqrt(lightest / stiffest);
+}
+
 Simulation build_simulation(const Packing& packing, const Sample& sample) {
   if (packing.beads.size() < 2)
     bad_input("packing: found {} bead(s), expected at least two", packing.beads.size());
@@ -183,6 +173,8 @@ Simulation build_simulation(const Packing& packing, const Sample& sample) {
   sort_pairs(simulation.pairs);
   add_overlapping_pairs(simulation, packing);
   sort_pairs(simulation.pairs);
+  simulation.top.normal_sign = -1.0;
+  simulation.bottom.relief = simulation.top.relief = std::vector<double>(simulation.beads.size(), 0.0);
   place_platens(simulation, platen_speed(sample));
   simulation.section = 0.25 * M_PI * sample.specimen.diameter * sample.specimen.diameter;
   simulation.dt = time_step(simulation, sample.contact.time_step_fraction);
@@ -233,7 +225,7 @@ Energies energies(const Simulation& simulation) {
   }
   for (const Platen* platen : {&simulation.bottom, &simulation.top})
     for (std::size_t k = 0; k < beads.size(); ++k) {
-      const double overlap = beads.radius[k] - platen->normal_sign * (beads.position[k].z() - platen->z);
+      const double overlap = -platen->gap(k, beads.position[k].z(), beads.radius[k]);
       if (overlap > 0.0)
         total.elastic += 0.5 * simulation.law.k_glass * overlap * overlap +
                          0.5 * simulation.law.kt_glass * platen->slip[k].squaredNorm();

@@ -33,6 +33,7 @@ struct Pair {
 struct Bond {
   int i = 0, j = 0;
   bool broken = false;
+  double height = 0.0;  ///< l of the breaking criterion, m
 };
 
 /// A bond that has broken, as events.csv reports it.
@@ -50,6 +51,7 @@ struct Work {
   double platen = 0.0;  ///< done by the platens
   double damped = 0.0, slipped = 0.0, broken = 0.0;
   double halted = 0.0;  ///< taken out by bringing beads to rest, in quasi-static tests
+  double given = 0.0;   ///< brought by what bonds became of themselves: before the test, or as it went on
 };
 
 /// For which places the list of pairs holds: as long as no bead and no platen has moved by more than its
@@ -69,6 +71,7 @@ struct Simulation {
   BeadStates beads;
   std::vector<Pair> pairs;  ///< sorted by (i, j)
   std::vector<Bond> bonds;
+  std::vector<double> bond_memory;  ///< what laws that change bonds remember: as many numbers for each
   Platen bottom, top;
   double initial_height = 0.0;  ///< distance of the platens at the start, m
   double section = 0.0;         ///< initial cross-section, m²
@@ -94,6 +97,13 @@ Simulation build_simulation(const Packing& packing, const Sample& sample);
 /// Platen speed that the sample asks for, m/s: given, or compression.speed × D √(k_glass/m) for the mean
 /// bead.
 double platen_speed(const Sample& sample);
+
+/// Puts the platens where they just touch the outermost beads, with no memory of any; the bottom one moves at
+/// `speed` (m/s). Keeps their relief.
+void place_platens(Simulation& simulation, double speed);
+
+/// A stated fraction of √(m_min/k_max), s, with k_max the stiffest of all springs.
+double time_step(const Simulation& simulation, double fraction);
 
 /// Lists anew the pairs that may touch while no bead moves by more than its margin; histories and bonds are
 /// kept. No margin is smaller than `least` (m).

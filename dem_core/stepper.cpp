@@ -231,10 +231,12 @@ void Stepper::find_beads_near_platens() {
   const Listing& listing = simulation_.listing;
   for (auto& chunk : chunks_)
     for (std::size_t row = chunk.first_bead; row < chunk.last_bead; ++row) {
+      const std::size_t k = bead_of_[row];
       const double z = beads_.listed_rows[4 * row + 2];
-      const double reach =
-          beads_.rows[kBeadRow * row + 3] + listing.margin[bead_of_[row]] + listing.platen_margin;
-      if (z - reach <= listing.bottom_at || z + reach >= listing.top_at) chunk.near_platen.push_back(row);
+      const double reach = beads_.rows[kBeadRow * row + 3] + listing.margin[k] + listing.platen_margin;
+      if (z - reach + simulation_.bottom.relief[k] <= listing.bottom_at ||
+          z + reach - simulation_.top.relief[k] >= listing.top_at)
+        chunk.near_platen.push_back(row);
     }
 }
 
@@ -324,15 +326,29 @@ void Stepper::advance_chunk(std::size_t c) {
       move_beads(beads_, chunks_[target], simulation_.dt);
 }
 
+/// Makes the simulation's pair true, and has it changed there.
+template <typename Change>
+void Stepper::change_pair(const Chunk& chunk, std::size_t p, const Change& change) {
+  Pair& pair = simulation_.pairs[pair_of_[p]];
+  for (int bead : {pair.i, pair.j}) simulation_.beads.position[bead] = motion(row_of_[bead]).position;
+  store_pair(chunk, p);
+  change(simulation_, pair);
+  load_pair(chunk, p);
+}
+
 /// Breaks are taken when all beads have moved, in the order of the table.
 void Stepper::break_bonds() {
   for (const auto& chunk : chunks_)
-    for (const std::uint32_t p : chunk.breaking) {
-      Pair& pair = simulation_.pairs[pair_of_[p]];
-      for (int bead : {pair.i, pair.j}) simulation_.beads.position[bead] = motion(row_of_[bead]).position;
-      store_pair(chunk, p);
-      break_bond(simulation_, pair);
-      load_pair(chunk, p);
+    for (const std::uint32_t p : chunk.breaking) change_pair(chunk, p, [](Simulation& s, Pair& pair) {
+        break_bond(s, pair);
+      });
+}
+
+void Stepper::change_bonds(const BondEvolution& evolution, double elapsed) {
+  for (const auto& chunk : chunks_)
+    for (std::size_t p = chunk.first_block * kBlock; p < chunk.last_block * kBlock; ++p) {
+      if (pair_of_[p] < 0 || simulation_.pairs[pair_of_[p]].bond < 0) continue;
+      change_pair(chunk, p, [&](Simulation& s, Pair& pair) { change_bond(s, pair, evolution, elapsed); });
     }
 }
 

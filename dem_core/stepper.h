@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "dem_core/bond_evolution.h"
 #include "dem_core/simulation.h"
 #include "dem_core/step_tables.h"
 
@@ -24,6 +25,10 @@ class Stepper {
 
   /// One time step. Pairs are listed anew where a bead or platen may have moved by its margin.
   void step();
+
+  /// Lets the standing bonds change by what has become of them in a time (s). Books what that brings as
+  /// Work::given.
+  void change_bonds(const BondEvolution& evolution, double elapsed);
 
   /// Writes beads and pairs back to the simulation.
   void store();
@@ -54,6 +59,8 @@ class Stepper {
   ContactBlock* contact_of(const Chunk& chunk, std::size_t at);
   void advance_chunk(std::size_t c);
   void press_platens(Chunk& chunk);
+  template <typename Change>
+  void change_pair(const Chunk& chunk, std::size_t at, const Change& change);
   void break_bonds();
   void add_up();
   BeadMotion motion(std::size_t row) const;

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "dem_core/compress.h"
+#include "effects/compress.h"
 #include "packing/bridges.h"
 #include "packing/generate.h"
 #include "packing/vtp.h"
@@ -112,7 +112,7 @@ void make(Store& store, const std::string& hash) {
   const Packing packing = start_packing(store, request);
   options.provenance.inputs = {{"packing", sha256_of(store.packing_path(packing_hash(request)))}};
   auto result =
-      compress(realise(packing, request.sample, request.seed), request.sample, folder, options).result;
+      effects::compress_with_effects(packing, request.sample, request.seed, folder, options).result;
 
   Effort effort;
   effort.particle_steps = result["beads"].get<double>() * result["steps"].get<double>();

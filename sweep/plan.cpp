@@ -1,6 +1,7 @@
 #include "sweep/plan.h"
 
 #include "base/error.h"
+#include "effects/list.h"
 
 namespace pendular::sweep {
 namespace {
@@ -19,6 +20,7 @@ Sample sample_at(const std::string& text, const SweepFile& file, const Plan::Run
       settings.emplace_back(keys[k], run.values[k]);
   }
   Sample sample = parse_sample(text, where, settings);
+  effects::check_effects(sample, where);
   if (!content) return sample;
   set_polymer_content(sample, *content);
   return parse_sample("", where, sample_settings(sample));  // checked again, with its new diameter

@@ -3,6 +3,7 @@
 
 #include "base/nearest.h"
 #include "base/toml_place.h"
+#include "effects/list.h"
 #include "sweep/plan.h"
 
 namespace pendular::sweep {
@@ -105,12 +106,14 @@ void check_value(const TomlPlace& place, const SampleValue& value) {
     return;
   }
   auto names = sample_key_names();
+  for (const auto& effect : effects::all_effects()) names.push_back("effects." + effect.id);
   if (std::find(names.begin(), names.end(), place.name) == names.end()) {
     names.push_back("W");
     bad_input("{}: unknown key, the nearest known one is \"{}\"", place.str(),
               nearest_name(place.name, names));
   }
   set_sample_key(sample, place.name, value, place.str());
+  effects::check_effects(sample, place.str());
 }
 
 std::vector<SampleValue> values_at(const TomlPlace& place) {

@@ -1,0 +1,27 @@
+#include <algorithm>
+
+#include "effects/effect.h"
+
+namespace pendular::effects {
+namespace {
+
+void change(Sample& sample, double theta) {
+  sample.contact.friction = std::max(0.0, sample.contact.friction + theta);
+}
+
+}  // namespace
+
+/// The friction coefficient between beads is not what the sample states but larger by θ, and at least 0.
+/// Raises the peak, and E a little.
+Effect bead_friction() {
+  return {.id = "bead_friction",
+          .unit = "1",
+          .meaning = "friction coefficient between beads less the stated one",
+          .lowest = -2.0,
+          .highest = 2.0,
+          .bank_from = -0.4,
+          .bank_to = 0.4,
+          .sample = change};
+}
+
+}  // namespace pendular::effects

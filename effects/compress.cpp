@@ -1,0 +1,141 @@
+#include "effects/compress.h"
+
+#include <algorithm>
+
+#include "dem_core/bond_bodies.h"
+#include "effects/list.h"
+#include "micromechanics/stiffness.h"
+
+namespace pendular::effects {
+namespace {
+
+/// An effect that a sample has.
+struct Active {
+  const Effect* effect;
+  double theta;
+  Draws draws;
+};
+
+std::vector<Active> active_effects(const Sample& sample, std::uint64_t seed) {
+  check_effects(sample, "sample");
+  std::vector<Active> active;
+  for (const auto& effect : all_effects())
+    if (const auto found = sample.effects.find(effect.id); found != sample.effects.end())
+      active.push_back({&effect, found->second, Draws(seed, effect.id)});
+  return active;
+}
+
+void make_bodies(ActualSpecimen& specimen, const std::vector<Active>& active) {
+  const auto standing = standing_bridges(specimen.packing);
+  if (specimen.sample.bridges.stiffness == "one")
+    specimen.believed_bodies.assign(standing.size(), mean_bridge(specimen.sample));
+  else
+    specimen.believed_bodies = bond_bodies(specimen.packing, standing, specimen.sample);
+  specimen.bodies = specimen.believed_bodies;
+  for (const auto& [effect, theta, draws] : active)
+    if (effect->body)
+      for (std::size_t k = 0; k < standing.size(); ++k)
+        effect->body(specimen.bodies[k], specimen.sample, theta, draws,
+                     of_pair(standing[k].i, standing[k].j));
+}
+
+/// Bonds get the stiffness and the height of their bridges' bodies.
+void change_stiffness(Simulation& simulation, const ActualSpecimen& specimen) {
+  std::vector<BridgeBody> both = specimen.believed_bodies;
+  both.insert(both.end(), specimen.bodies.begin(), specimen.bodies.end());
+  const auto stiffness = bridge_stiffnesses(both, polymer_of(specimen.sample)).bonds;
+  const auto geometry = bond_bodies(specimen.packing, standing_bridges(specimen.packing), specimen.sample);
+  for (auto& pair : simulation.pairs) {
+    if (pair.bond < 0) continue;
+    const auto k = static_cast<std::size_t>(pair.bond);
+    const BondStiffness &before = stiffness[k], &after = stiffness[geometry.size() + k];
+    pair.properties.kn *= after.normal / before.normal;
+    pair.properties.kt *= after.tangential / before.tangential;
+    const BridgeBody &body = geometry[k], &now = specimen.bodies[k];
+    double& height = simulation.bonds[k].height;
+    const double longer = now.gap - specimen.believed_bodies[k].gap;
+    const double neck = std::min(now.neck_diameter, 0.99 * std::min(body.diameter_i, body.diameter_j));
+    const double changed = rim_height(body.gap + longer, body.diameter_i, body.diameter_j, neck);
+    pair.properties.break_limit *= changed / height;
+    height = changed;
+  }
+}
+
+/// All of them one after the other, each with its part of a bond's memory.
+BondEvolution evolution_of(const ActualSpecimen& specimen, const std::vector<Active>& active) {
+  struct Part {
+    std::function<void(const BondMoment&)> change;
+    std::size_t first;
+  };
+  std::vector<Part> parts;
+  BondEvolution evolution;
+  for (const auto& [effect, theta, draws] : active) {
+    if (!effect->evolution) continue;
+    parts.push_back({effect->evolution(specimen, theta), evolution.memory});
+    evolution.memory += effect->memory;
+  }
+  if (!parts.empty())
+    evolution.change = [parts](const BondMoment& bond) {
+      for (const auto& [change, first] : parts)
+        change({bond.stretch, bond.shear, bond.height, bond.elapsed, bond.normal, bond.properties,
+                bond.history, bond.memory + first});
+    };
+  return evolution;
+}
+
+void prepare(Simulation& simulation, const ActualSpecimen& specimen, const std::vector<Active>& active) {
+  if (std::any_of(active.begin(), active.end(), [](const Active& a) { return a.effect->body; })) {
+    change_stiffness(simulation, specimen);
+    simulation.dt = time_step(simulation, specimen.sample.contact.time_step_fraction);
+  }
+  for (const auto& [effect, theta, draws] : active)
+    if (effect->simulation) effect->simulation(simulation, specimen, theta, draws);
+}
+
+}  // namespace
+
+ActualSpecimen actual_specimen(const Packing& measured, const Sample& believed, std::uint64_t seed) {
+  const auto active = active_effects(believed, seed);
+  ActualSpecimen specimen{believed, believed, measured, seed, {}, {}};
+  for (const auto& [effect, theta, draws] : active)
+    if (effect->sample) effect->sample(specimen.sample, theta);
+  for (const auto& [effect, theta, draws] : active)
+    if (effect->truth) effect->truth(specimen.packing, theta, draws);
+  specimen.packing = realise(specimen.packing, specimen.sample, seed);
+  for (const auto& [effect, theta, draws] : active)
+    if (effect->packing) effect->packing(specimen.packing, theta, draws);
+  make_bodies(specimen, active);
+  return specimen;
+}
+
+Packing reading(const Packing& actual, const Sample& believed, std::uint64_t seed) {
+  Packing packing = actual;
+  auto active = active_effects(believed, seed);
+  std::reverse(active.begin(), active.end());
+  for (const auto& [effect, theta, draws] : active)
+    if (effect->reading) effect->reading(packing, theta, draws);
+  return packing;
+}
+
+Simulation actual_simulation(const ActualSpecimen& specimen) {
+  Simulation simulation = build_simulation(specimen.packing, specimen.sample);
+  prepare(simulation, specimen, active_effects(specimen.believed, specimen.seed));
+  return simulation;
+}
+
+CompressResult compress_with_effects(const Packing& measured, const Sample& believed, std::uint64_t seed,
+                                     const fs::path& folder, CompressOptions options) {
+  const auto active = active_effects(believed, seed);
+  const ActualSpecimen specimen = actual_specimen(measured, believed, seed);
+  if (!active.empty()) {
+    options.prepare = [&](Simulation& simulation) { prepare(simulation, specimen, active); };
+    options.evolution = evolution_of(specimen, active);
+    options.read_rows = [&](std::vector<CurveRow>& rows, const Simulation& simulation) {
+      for (const auto& [effect, theta, draws] : active)
+        if (effect->rows) effect->rows(rows, simulation, theta);
+    };
+  }
+  return compress(specimen.packing, specimen.sample, folder, options);
+}
+
+}  // namespace pendular::effects

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/random.h"
+#include "base/sample.h"
+#include "dem_core/bond_evolution.h"
+#include "dem_core/curve.h"
+#include "dem_core/simulation.h"
+#include "micromechanics/bridge_body.h"
+#include "packing/packing.h"
+
+namespace pendular::effects {
+
+/// The random numbers of one effect in one run. They follow from the run's seed, the effect's id and what is
+/// drawn for, not from the magnitude: at a larger one the same specimen departs farther.
+class Draws {
+ public:
+  Draws(std::uint64_t seed, std::string_view id) : stream_(seed) {
+    for (const char c : id) stream_ = random_bits(stream_, static_cast<unsigned char>(c));
+  }
+  double uniform(std::uint64_t counter) const { return random_uniform(stream_, counter); }
+  double normal(std::uint64_t counter) const { return random_normal(stream_, counter); }
+
+ private:
+  std::uint64_t stream_;
+};
+
+/// A counter for a pair of beads.
+inline std::uint64_t of_pair(int i, int j) {
+  return static_cast<std::uint64_t>(i) << 31 | static_cast<std::uint64_t>(j);
+}
+
+/// A specimen as its effects make it.
+struct ActualSpecimen {
+  Sample believed;  ///< as the experimenter states it
+  Sample sample;    ///< what holds in truth
+  Packing packing;  ///< likewise
+  std::uint64_t seed = 1;
+  /// Of each bond to be (Simulation::bonds): what its stiffness follows from, without and with the effects.
+  std::vector<BridgeBody> believed_bodies, bodies;
+};
+
+/// Something that a real specimen, its test or its measurement may have and the paper's model has not.
+/// θ is its magnitude in `unit`; at 0 there is no effect. Each hook is null where the effect does not enter;
+/// effects are called in the order of the list, hooks in the order in which they stand here.
+struct Effect {
+  std::string id, unit;
+  std::string meaning;        ///< of θ, one line
+  double lowest, highest;     ///< accepted θ
+  double bank_from, bank_to;  ///< θ of a typical bank of runs
+  /// What the sample file states otherwise than it is.
+  void (*sample)(Sample& sample, double theta) = nullptr;
+  /// From the beads and bridges as measured to those that are, before diameters are drawn; and back.
+  void (*truth)(Packing& packing, double theta, const Draws& draws) = nullptr;
+  void (*reading)(Packing& packing, double theta, const Draws& draws) = nullptr;
+  /// What becomes of the packing that is.
+  void (*packing)(Packing& packing, double theta, const Draws& draws) = nullptr;
+  /// What becomes of one bridge; `pair` is its counter. Its stiffness changes by the ratio that finite
+  /// elements give.
+  void (*body)(BridgeBody& body, const Sample& sample, double theta, const Draws& draws,
+               std::uint64_t pair) = nullptr;
+  /// What becomes of the specimen before its test.
+  void (*simulation)(Simulation& simulation, const ActualSpecimen& specimen, double theta,
+                     const Draws& draws) = nullptr;
+  /// How bonds change as the test goes on, and how many numbers each remembers for that.
+  std::function<void(const BondMoment&)> (*evolution)(const ActualSpecimen& specimen, double theta) = nullptr;
+  std::size_t memory = 0;
+  /// What the instruments make of the rows.
+  void (*rows)(std::vector<CurveRow>& rows, const Simulation& simulation, double theta) = nullptr;
+};
+
+}  // namespace pendular::effects

@@ -1,0 +1,31 @@
+#include <cmath>
+
+#include "effects/effect.h"
+
+namespace pendular::effects {
+namespace {
+
+constexpr double kTransition = 0.027;  // W* of Hemmerle et al. 2021
+
+void thin(BridgeBody& body, const Sample& sample, double theta, const Draws&, std::uint64_t) {
+  const double content = sample.bridges.polymer_content, above = content - kTransition;
+  if (above > 0.0) body.neck_diameter *= std::sqrt((content - theta * above) / content);
+}
+
+}  // namespace
+
+/// The paper puts all polymer into bridges, W ∝ d². Above the funicular transition W* = 0.027 some of it
+/// joins several beads and fills pores: the share θ of what is above W* carries no load, and d follows from
+/// the rest. Lowers E above W*; below nothing changes.
+Effect funicular_bridges() {
+  return {.id = "funicular_bridges",
+          .unit = "fraction",
+          .meaning = "share of the polymer above the funicular transition that carries no load",
+          .lowest = 0.0,
+          .highest = 1.0,
+          .bank_from = 0.0,
+          .bank_to = 1.0,
+          .body = thin};
+}
+
+}  // namespace pendular::effects

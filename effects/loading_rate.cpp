@@ -1,0 +1,29 @@
+#include "effects/effect.h"
+
+namespace pendular::effects {
+namespace {
+
+void change(Sample& sample, double theta) {
+  auto& asked = sample.compression;
+  (asked.speed_si ? *asked.speed_si : asked.speed) *= theta;
+  if (asked.control == "relaxation") asked.control = "speed";
+}
+
+}  // namespace
+
+/// The paper's simulation is faster than its experiment, and both are taken to be quasi-static. θ is the
+/// speed of the run over the stated one; 0 and, where the platen is driven by its speed, 1 are as stated. A
+/// sample that compresses in increments at rest runs at θ times its compression.speed instead. Raises E and
+/// the peak for θ > 1: beads have mass.
+Effect loading_rate() {
+  return {.id = "loading_rate",
+          .unit = "ratio",
+          .meaning = "speed of the run over the stated one",
+          .lowest = 0.0,
+          .highest = 100.0,
+          .bank_from = 0.0,
+          .bank_to = 10.0,
+          .sample = change};
+}
+
+}  // namespace pendular::effects

@@ -1,0 +1,27 @@
+#include "effects/effect.h"
+
+namespace pendular::effects {
+namespace {
+
+void read(std::vector<CurveRow>& rows, const Simulation& simulation, double theta) {
+  for (auto& row : rows)
+    row.strain += 1e-6 * theta * row.stress * simulation.section / simulation.initial_height;
+}
+
+}  // namespace
+
+/// The paper's platens move as far as the machine says. A real machine gives way: its reading is the
+/// specimen's shortening and θ times the force. Strains in the tomogram, and in the run's events and frames,
+/// do not have it. Lowers E: 1/E grows by θ A/L.
+Effect machine_compliance() {
+  return {.id = "machine_compliance",
+          .unit = "um/N",
+          .meaning = "compliance in series with the specimen",
+          .lowest = 0.0,
+          .highest = 1e4,
+          .bank_from = 0.0,
+          .bank_to = 10.0,
+          .rows = read};
+}
+
+}  // namespace pendular::effects

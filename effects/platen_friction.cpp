@@ -1,0 +1,27 @@
+#include <algorithm>
+
+#include "effects/effect.h"
+
+namespace pendular::effects {
+namespace {
+
+void change(Sample& sample, double theta) {
+  sample.contact.platen_friction = std::max(0.0, sample.contact.platen_friction + theta);
+}
+
+}  // namespace
+
+/// The friction coefficient at the platens is not what the sample states but larger by θ, and at least 0.
+/// Raises E a little: beads on a rough platen do not spread.
+Effect platen_friction() {
+  return {.id = "platen_friction",
+          .unit = "1",
+          .meaning = "friction coefficient at the platens less the stated one",
+          .lowest = -2.0,
+          .highest = 2.0,
+          .bank_from = -0.4,
+          .bank_to = 0.4,
+          .sample = change};
+}
+
+}  // namespace pendular::effects

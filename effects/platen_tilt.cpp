@@ -1,0 +1,31 @@
+#include <cmath>
+
+#include "effects/effect.h"
+
+namespace pendular::effects {
+namespace {
+
+void tilt(Simulation& simulation, const ActualSpecimen& specimen, double theta, const Draws&) {
+  const double slope = std::tan(theta * M_PI / 180.0), axis = specimen.packing.specimen.axis_x;
+  for (std::size_t k = 0; k < simulation.beads.size(); ++k)
+    simulation.top.relief[k] += slope * (simulation.beads.position[k].x() - axis);
+  place_platens(simulation, simulation.bottom.velocity);
+  list_pairs(simulation);
+}
+
+}  // namespace
+
+/// The paper's platens are parallel. A real one may be tilted: the top platen's face rises by θ along x. It
+/// touches one side first. Lengthens the toe, the more the lower the specimen; lowers E of a short test.
+Effect platen_tilt() {
+  return {.id = "platen_tilt",
+          .unit = "degrees",
+          .meaning = "angle between the platens",
+          .lowest = 0.0,
+          .highest = 10.0,
+          .bank_from = 0.0,
+          .bank_to = 2.0,
+          .simulation = tilt};
+}
+
+}  // namespace pendular::effects

@@ -1,0 +1,44 @@
+#include <cmath>
+
+#include "effects/effect.h"
+
+namespace pendular::effects {
+namespace {
+
+void move(Packing& packing, double way, const Draws& draws) {
+  for (std::size_t k = 0; k < packing.beads.size(); ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      packing.beads[k].centre[static_cast<int>(axis)] += way * draws.normal(3 * k + axis);
+  for (auto& bridge : packing.bridges) bridge.gap = gap(packing.beads[bridge.i], packing.beads[bridge.j]);
+}
+
+void truth(Packing& packing, double theta, const Draws& draws) {
+  const double sigma = 1e-6 * theta;
+  move(packing, sigma, draws);
+  for (auto& bead : packing.beads)
+    bead.sigma_centre = std::sqrt(bead.sigma_centre * bead.sigma_centre + sigma * sigma);
+}
+
+void reading(Packing& packing, double theta, const Draws& draws) {
+  move(packing, -1e-6 * theta, draws);
+}
+
+}  // namespace
+
+/// The paper simulates the beads where the tomogram shows them. They are elsewhere, by N(0, θ) along each
+/// axis: measured centres are those that are, and noise that was not reported. Which pairs touch changes, not
+/// which are bridged. Overlaps that it makes are at rest. Measured diameters keep their bridges; drawn ones
+/// are drawn for the beads where they are, which leaves smaller beads and lowers E and Z.
+Effect position_error() {
+  return {.id = "position_error",
+          .unit = "um",
+          .meaning = "unreported noise of the measured centres along each axis",
+          .lowest = 0.0,
+          .highest = 20.0,
+          .bank_from = 0.0,
+          .bank_to = 5.0,
+          .truth = truth,
+          .reading = reading};
+}
+
+}  // namespace pendular::effects
