@@ -164,7 +164,8 @@ bool is_effect(const std::string& name) {
 /// Effects are written back as bare TOML keys.
 void set_effect(Sample& sample, const std::string& name, double magnitude, const std::string& where) {
   const std::string effect = name.substr(kEffects.size());
-  if (effect.empty() || effect.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
+  if (effect.empty() ||
+      effect.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
     bad_input("{}: found \"{}\", expected an effect's name of small letters, digits and _", where, effect);
   if (!std::isfinite(magnitude)) bad_input("{}: found {}, expected a finite number", where, magnitude);
   sample.effects.erase(effect);

@@ -101,9 +101,9 @@ struct Sample {
     double glass_grey = 0.60;         ///< grey value of glass over full scale
   } phantom;
 
-  /// What the specimen is taken to have that the paper's model has not: the file's [effects], name = magnitude.
-  /// Any name is read here; the library of effects checks names and ranges. Magnitude 0 is the model itself
-  /// and not kept.
+  /// What the specimen is taken to have that the paper's model has not: the file's [effects], name =
+  /// magnitude. Any name is read here; the library of effects checks names and ranges. Magnitude 0 is the
+  /// model itself and not kept.
   std::map<std::string, double> effects;
 };
 

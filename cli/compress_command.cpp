@@ -81,10 +81,9 @@ void run(const Options& options) {
   for (int k = 1; k <= options.realisations; ++k) {
     compress_options.provenance.seed = options.common.seed + static_cast<std::uint64_t>(k) - 1;
     const auto folder = options.common.out / fmt::format("realisation_{:02d}", k);
-    results.push_back(
-        effects::compress_with_effects(packing, sample, compress_options.provenance.seed, folder,
-                                       compress_options)
-            .result);
+    results.push_back(effects::compress_with_effects(packing, sample, compress_options.provenance.seed,
+                                                     folder, compress_options)
+                          .result);
     say(fmt::format("realisation {}: {}", k, in_words(results.back())));
   }
   compress_options.provenance.seed = options.common.seed;

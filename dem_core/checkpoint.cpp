@@ -105,10 +105,10 @@ void visit(Archive& a, LawParameters& l) {
 
 template <typename Archive>
 void visit(Archive& a, Simulation& s) {
-  fields(a, s.law, s.dt, s.steps, s.beads, s.pairs, s.bonds, s.bond_memory, s.bottom, s.top, s.initial_height, s.section,
-         s.listing.at, s.listing.margin, s.listing.bottom_at, s.listing.top_at, s.listing.platen_margin,
-         s.events, s.work.platen, s.work.damped, s.work.slipped, s.work.broken, s.work.halted,
-         s.work.given);
+  fields(a, s.law, s.dt, s.steps, s.beads, s.pairs, s.bonds, s.bond_memory, s.bottom, s.top, s.initial_height,
+         s.section, s.listing.at, s.listing.margin, s.listing.bottom_at, s.listing.top_at,
+         s.listing.platen_margin, s.events, s.work.platen, s.work.damped, s.work.slipped, s.work.broken,
+         s.work.halted, s.work.given);
 }
 
 template <typename Archive>

@@ -25,8 +25,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Of the platen, between two changes of bonds that evolve: a hundredth of the strains at which bonds soften or
-// relax.
+// Of the platen, between two changes of bonds that evolve: a hundredth of the strains at which bonds soften
+// or relax.
 constexpr double kStrainOfChanges = 1e-4;
 
 double seconds_since(Clock::time_point start) {
@@ -157,7 +157,8 @@ class Test {
     const Simulation& s = state_.simulation;
     double mass = 0.0;
     for (double m : s.beads.mass) mass += m;
-    const double brought = std::fabs(s.work.platen) + std::max(s.work.given, 0.0) + mass * program_.speed() * program_.speed();
+    const double brought =
+        std::fabs(s.work.platen) + std::max(s.work.given, 0.0) + mass * program_.speed() * program_.speed();
     if (now.kinetic + now.elastic <= 10.0 * brought) return;
     throw ComputationFailed(
         fmt::format("compress: motion diverged at strain {:.4f}: found {:.3g} J in the specimen, "
@@ -242,8 +243,7 @@ Performance run(RunState& state, const Sample& sample, const CompressOptions& op
     }
     if (state.open_row.steps != 0) continue;
     progress.update(test.done(), progress_note(state, test.last_stress(), so_far().rate()));
-    if (!state.finished && seconds_since(last_checkpoint) >= options.checkpoint_every)
-      keep();
+    if (!state.finished && seconds_since(last_checkpoint) >= options.checkpoint_every) keep();
   }
   keep();
   return so_far();

@@ -24,9 +24,9 @@ struct Relaxed {
 /// until unbalanced_force() is no larger than asked for. Nothing where the user interrupts.
 std::optional<Relaxed> come_to_rest(Simulation& simulation, Stepper& stepper, double unbalanced);
 
-/// Moves the platen by one increment, all beads set in motion with the mean deformation, and lets the specimen
-/// come to rest once it has arrived. No speed enters the result, and an oscillation is halted before it overshoots. What
-/// halting takes out, less what setting in motion brought, is booked as Work::halted.
+/// Moves the platen by one increment, all beads set in motion with the mean deformation, and lets the
+/// specimen come to rest once it has arrived. No speed enters the result, and an oscillation is halted before
+/// it overshoots. What halting takes out, less what setting in motion brought, is booked as Work::halted.
 ///
 /// Nothing where the user interrupts: simulation and stepper are then in between and of no use.
 std::optional<Relaxed> compress_and_relax(Simulation& simulation, Stepper& stepper,

@@ -94,8 +94,8 @@ nlohmann::ordered_json relaxation_json(const std::vector<CurveRow>& rows,
 nlohmann::ordered_json work_balance_json(const Simulation& simulation) {
   const Energies now = energies(simulation);
   const Work& work = simulation.work;
-  const double found = now.elastic + now.kinetic + work.damped + work.slipped + work.broken + work.halted -
-                       work.given;
+  const double found =
+      now.elastic + now.kinetic + work.damped + work.slipped + work.broken + work.halted - work.given;
   return {{"platen_j", work.platen},
           {"elastic_j", now.elastic},
           {"kinetic_j", now.kinetic},

@@ -339,9 +339,8 @@ void Stepper::change_pair(const Chunk& chunk, std::size_t p, const Change& chang
 /// Breaks are taken when all beads have moved, in the order of the table.
 void Stepper::break_bonds() {
   for (const auto& chunk : chunks_)
-    for (const std::uint32_t p : chunk.breaking) change_pair(chunk, p, [](Simulation& s, Pair& pair) {
-        break_bond(s, pair);
-      });
+    for (const std::uint32_t p : chunk.breaking)
+      change_pair(chunk, p, [](Simulation& s, Pair& pair) { break_bond(s, pair); });
 }
 
 void Stepper::change_bonds(const BondEvolution& evolution, double elapsed) {

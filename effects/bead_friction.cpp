@@ -12,7 +12,7 @@ void change(Sample& sample, double theta) {
 }  // namespace
 
 /// The friction coefficient between beads is not what the sample states but larger by θ, and at least 0.
-/// Raises the peak, and E a little.
+/// With θ < 0 the peak is lower. What it does to E has not been measured.
 Effect bead_friction() {
   return {.id = "bead_friction",
           .unit = "1",

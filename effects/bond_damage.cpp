@@ -21,7 +21,7 @@ std::function<void(const BondMoment&)> evolution(const ActualSpecimen&, double t
 /// The paper's bonds keep their stiffness until they break. Real ones tear off bit by bit: over the last
 /// share θ of its life a bond's stiffness falls linearly from all to a tenth. Life is the length of
 /// Griffith's criterion, √(Δr_n² + |δt|²/12), over that at which the bond breaks; what is lost stays lost.
-/// Lowers the peak and the slope before it, and at large θ E, unloading too.
+/// Lowers the peak. What it does to E and to unloading has not been measured.
 Effect bond_damage() {
   return {.id = "bond_damage",
           .unit = "fraction",

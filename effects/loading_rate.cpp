@@ -13,8 +13,8 @@ void change(Sample& sample, double theta) {
 
 /// The paper's simulation is faster than its experiment, and both are taken to be quasi-static. θ is the
 /// speed of the run over the stated one; 0 and, where the platen is driven by its speed, 1 are as stated. A
-/// sample that compresses in increments at rest runs at θ times its compression.speed instead. Raises E and
-/// the peak for θ > 1: beads have mass.
+/// sample that compresses in increments at rest runs at θ times its compression.speed instead.
+/// Beads have mass: kinetic energy grows as θ². What it does to E and the peak has not been measured.
 Effect loading_rate() {
   return {.id = "loading_rate",
           .unit = "ratio",

@@ -12,7 +12,7 @@ void change(Sample& sample, double theta) {
 }  // namespace
 
 /// The friction coefficient at the platens is not what the sample states but larger by θ, and at least 0.
-/// Raises E a little: beads on a rough platen do not spread.
+/// With θ < 0 the peak is lower: beads on a smooth platen spread. What it does to E has not been measured.
 Effect platen_friction() {
   return {.id = "platen_friction",
           .unit = "1",

@@ -37,7 +37,7 @@ void shrink(Simulation& simulation, const ActualSpecimen& specimen, double theta
 /// The paper's bonds carry nothing before the test. A real polymer shrinks as it cures: each bond is at rest
 /// at a gap shorter by θ of its height, and pulls. The specimen comes to equilibrium under that before the
 /// platens touch it. Beads that touch are pressed together; bonds are part of the way to breaking. Raises E
-/// where contacts were open, and lowers the peak.
+/// where contacts were open. What it does to the peak has not been measured.
 Effect residual_stress() {
   return {.id = "residual_stress",
           .unit = "strain",

@@ -111,8 +111,7 @@ void make(Store& store, const std::string& hash) {
   options.provenance = provenance_of(request, hash);
   const Packing packing = start_packing(store, request);
   options.provenance.inputs = {{"packing", sha256_of(store.packing_path(packing_hash(request)))}};
-  auto result =
-      effects::compress_with_effects(packing, request.sample, request.seed, folder, options).result;
+  auto result = effects::compress_with_effects(packing, request.sample, request.seed, folder, options).result;
 
   Effort effort;
   effort.particle_steps = result["beads"].get<double>() * result["steps"].get<double>();
