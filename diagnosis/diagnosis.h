@@ -1,0 +1,104 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/provenance.h"
+#include "diagnosis/conditions.h"
+#include "diagnosis/evidence.h"
+#include "diagnosis/experiment.h"
+#include "diagnosis/gap.h"
+
+namespace pendular::diagnosis {
+
+/// An explanation as it is reported.
+struct Explanation {
+  std::string id;  ///< an effect, "none", "unknown", or a pair "a+b"
+  double probability = 0.0;
+  std::vector<Magnitude> magnitudes;  ///< one per effect
+  std::vector<std::string> units;     ///< likewise
+  double misfit = 0.0;                ///< distance squared that its best magnitudes leave, over the features
+  bool excluded = false;
+  std::string reason;  ///< why it is excluded or cannot be told; empty: nothing to say
+};
+
+/// What one group of features says of an effect's magnitude by itself.
+struct GroupMagnitude {
+  std::string effect, group;  ///< a group is an observation
+  Magnitude magnitude;
+};
+
+/// How far a believed input is from what was believed, in its standard deviations, under the best
+/// explanation; and what it does to the strongest signature.
+struct Pull {
+  std::string key;
+  double sigma = 0.0;   ///< stated, in the key's unit
+  double pull = 0.0;    ///< best value less believed one, over sigma
+  double spread = 1.0;  ///< posterior standard deviation over sigma
+  double impact = 0.0;  ///< root mean square of its response over the features' noise
+};
+
+/// What makes up the noise of one feature: standard deviations.
+struct NoiseBudget {
+  double ensemble = 0.0, measurement = 0.0, model = 0.0, believed = 0.0;
+};
+
+/// A gap before and after something was added to the simulation, in units of its noise (excess()).
+struct Shrinkage {
+  double before = 0.0, after = 0.0, fraction = 0.0;
+  std::pair<double, double> interval_90 = {0, 0};  ///< of the fraction
+  std::vector<std::string> observations;
+};
+
+/// What is to be measured next.
+struct NextExperiment {
+  std::string observation;                     ///< in words
+  double expected_probability_resolved = 0.0;  ///< that one explanation has nine tenths afterwards
+  double cost = 1.0;                           ///< in units of one compression test
+  std::string why;
+};
+
+/// One simulated test in the ledger.
+struct LedgerRow {
+  std::string hash, purpose, status, message;  ///< purpose: "baseline", "missing_bridges 0.1", …
+  std::size_t condition = 0;
+};
+
+/// Columns of one observation as measured and as simulated, one per realisation.
+struct Overlay {
+  std::string observation;
+  Kind kind = Kind::compression;
+  Columns measured;
+  std::vector<Columns> simulated;  ///< as believed
+  std::vector<Columns> repaired;   ///< with the best explanation, from fresh runs; empty: none was made
+};
+
+/// What a diagnosis comes to. Features are in the order of `gap.rows` everywhere.
+struct Diagnosis {
+  std::string experiment, verdict;
+  std::vector<std::string> warnings;  ///< what the reader must know
+  GapTable gap;
+  std::vector<NoiseBudget> noise;          ///< per feature
+  std::vector<Explanation> explanations;   ///< most probable first; every effect, none, unknown; pairs
+  std::vector<std::string> ambiguity_set;  ///< explanations that cannot be told apart here, best one first
+  double set_probability = 0.0;
+  double goodness = 1.0;  ///< of the best explanation: probability of a misfit as large by noise alone
+  std::vector<std::string> effects;  ///< rows of `signatures` and `separation`
+  Eigen::MatrixXd signatures;        ///< effect × feature at the effect's scale, over the feature's noise
+  Eigen::MatrixXd separation;        ///< isolability(), effects × (effects + 1)
+  std::vector<GroupMagnitude> groups;
+  std::vector<Pull> pulls;
+  Shrinkage fitted, withheld;
+  double retuned = 0.0, wrong = 0.0;  ///< fractions of the withheld gap that the controls close
+  std::string wrong_effect;           ///< of that control; empty: none was made
+  std::vector<NextExperiment> next;
+  std::vector<LedgerRow> ledger;
+  std::vector<Overlay> overlays;
+  Provenance provenance;
+};
+
+}  // namespace pendular::diagnosis
