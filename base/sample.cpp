@@ -36,6 +36,8 @@ const std::vector<NumberKey>& number_keys() {
        "largest gap of a candidate bridge over D"},
       {"bridges.interfacial_energy_j_m2", 1, 0.0, 1e6, PENDULAR_AT(bridges.interfacial_energy),
        "interfacial energy G"},
+      {"bridges.relaxation_time_s", 1, 1e-9, 1e9, PENDULAR_OPTIONAL(bridges.relaxation_time),
+       "time in which the polymer relaxes, where an effect makes it"},
       {"bridges.normal_stiffness_n_per_m", 1, tiny, inf, PENDULAR_OPTIONAL(bridges.normal_stiffness),
        "bond stiffness kn"},
       {"bridges.tangential_stiffness_n_per_m", 1, tiny, inf, PENDULAR_OPTIONAL(bridges.tangential_stiffness),

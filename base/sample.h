@@ -35,6 +35,7 @@ struct Sample {
     double gap = 2e-6;                       ///< δ0 for which the stiffness holds, m
     double cutoff = 0.064;                   ///< candidate bridges have gaps below cutoff × D
     double interfacial_energy = 7.0;         ///< G, J/m2
+    std::optional<double> relaxation_time;   ///< of the polymer, s; see effects/polymer_viscoelasticity.cpp
     std::optional<double> normal_stiffness;  ///< kn, N/m
     std::optional<double> tangential_stiffness;  ///< kt, N/m
     std::string stiffness =

@@ -41,6 +41,7 @@ void add_render(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_sweep(CLI::App& app);
 void add_reproduce(CLI::App& app);
+void add_diagnose(CLI::App& app);
 void add_sweep_run(CLI::App& app);  // the process of one run; not for users
 void add_pipette(CLI::App& app);
 

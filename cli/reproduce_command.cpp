@@ -36,7 +36,7 @@ std::vector<Point> points_of(const Options& options, const std::string& name,
   sweep::SweepFile file = sweep::read_sweep(path);
   if (options.realisations > 0) file.realisations = std::min(file.realisations, options.realisations);
   const sweep::Plan plan = sweep::plan_of(file);
-  const auto outcomes = make_runs(options.making, options.common, file.name, plan);
+  const auto outcomes = make_runs(options.making, options.common, file.name, plan.requests);
   const fs::path tables = options.common.out / name;
   make_folder(tables);
   Provenance from = provenance(options.common, {path, file.sample});

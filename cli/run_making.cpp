@@ -1,9 +1,51 @@
 #include "cli/run_making.h"
 
+#include <map>
+#include <optional>
+
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/progress.h"
+#include "sweep/estimate.h"
 
 namespace pendular::cli {
+namespace {
+
+std::string duration(double seconds) {
+  if (seconds < 120.0) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 7200.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+/// What a store already has of a plan.
+struct Stock {
+  std::size_t done = 0, failed = 0;
+  std::vector<sweep::RunRequest> left;  ///< to be made
+  std::optional<double> rate;           ///< of the store's runs
+};
+
+Stock stock_of(const fs::path& store_folder, bool retry_failed, std::span<const sweep::RunRequest> requests) {
+  std::vector<std::string> hashes;
+  for (const auto& request : requests) hashes.push_back(sweep::content_hash(request));
+  std::map<std::string, sweep::RunRecord> known;
+  Stock stock;
+  if (sweep::Store::exists(store_folder)) {  // opening would make it
+    sweep::Store store(store_folder);
+    known = store.records(hashes);
+    stock.rate = store.rate();
+  }
+  for (std::size_t k = 0; k < hashes.size(); ++k) {
+    const auto status = known[hashes[k]].status;
+    const bool failed = status == sweep::RunStatus::failed;
+    stock.done += status == sweep::RunStatus::done;
+    stock.failed += failed;
+    if (status == sweep::RunStatus::done || (failed && !retry_failed)) continue;
+    stock.left.push_back(requests[k]);
+  }
+  return stock;
+}
+
+}  // namespace
 
 void add_run_making(CLI::App& command, RunMaking& making) {
   command.add_option("--store", making.store, "Folder of runs, which sweeps may share; default: OUT/store");
@@ -21,7 +63,8 @@ void check(const RunMaking& making) {
 }
 
 std::vector<sweep::RunOutcome> make_runs(const RunMaking& making, const Common& common,
-                                         const std::string& name, const sweep::Plan& plan) {
+                                         const std::string& name,
+                                         std::span<const sweep::RunRequest> requests) {
   sweep::Store store(making.store_folder(common));
   sweep::ExecuteOptions how;
   how.cores = common.threads;
@@ -32,7 +75,22 @@ std::vector<sweep::RunOutcome> make_runs(const RunMaking& making, const Common& 
     progress.update(static_cast<double>(done + failed) / static_cast<double>(total),
                     fmt::format("{} of {} runs, {} failed", done + failed, total, failed));
   };
-  return sweep::execute(store, plan.requests, how);
+  return sweep::execute(store, requests, how);
+}
+
+void tell_work(const RunMaking& making, const Common& common, std::span<const sweep::RunRequest> requests) {
+  const auto [done, failed, left, rate] =
+      stock_of(making.store_folder(common), making.retry_failed, requests);
+  say(fmt::format("{} runs: {} in the store, {} failed before, {} to make", requests.size(), done, failed,
+                  left.size()));
+  if (left.empty()) return;
+  const auto work = sweep::estimate(left);
+  const double cores = static_cast<double>(std::min(thread_count(), left.size()));
+  const double per_core = rate.value_or(sweep::kStatedRate);
+  say(fmt::format(
+      "about {} on {} cores ({:.3g} particle-steps at {:.3g} M per second and core, {}), {:.2g} MB",
+      duration(work.particle_steps / (per_core * cores)), cores, work.particle_steps, 1e-6 * per_core,
+      rate ? "as the store's runs went" : "a guess until the store has runs", 1e-6 * work.bytes));
 }
 
 std::string failures(std::span<const sweep::RunOutcome> outcomes) {

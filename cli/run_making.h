@@ -6,7 +6,7 @@
 
 #include "cli/command.h"
 #include "sweep/execute.h"
-#include "sweep/plan.h"
+#include "sweep/request.h"
 
 namespace pendular::cli {
 
@@ -25,9 +25,13 @@ void add_run_making(CLI::App& command, RunMaking& making);
 /// BadUsage where its options do not go together; call before any work.
 void check(const RunMaking& making);
 
-/// The outcomes of a plan's runs, with progress under `name`.
+/// The outcomes of runs, with progress under `name`.
 std::vector<sweep::RunOutcome> make_runs(const RunMaking& making, const Common& common,
-                                         const std::string& name, const sweep::Plan& plan);
+                                         const std::string& name,
+                                         std::span<const sweep::RunRequest> requests);
+
+/// Says how many of some runs are left to make and how long they take, without making any.
+void tell_work(const RunMaking& making, const Common& common, std::span<const sweep::RunRequest> requests);
 
 /// What failed, in one line; empty where nothing did.
 std::string failures(std::span<const sweep::RunOutcome> outcomes);

@@ -1,11 +1,8 @@
-#include <map>
-
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "cli/command.h"
 #include "cli/run_making.h"
-#include "sweep/estimate.h"
 #include "sweep/execute.h"
 #include "sweep/make_run.h"
 #include "sweep/tables.h"
@@ -19,58 +16,7 @@ struct Options {
   bool seed_given = false;
   fs::path file;
   bool dry_run = false;
-
-  fs::path store_folder() const { return making.store_folder(common); }
 };
-
-std::string duration(double seconds) {
-  if (seconds < 120.0) return fmt::format("{:.0f} s", seconds);
-  if (seconds < 7200.0) return fmt::format("{:.0f} min", seconds / 60.0);
-  return fmt::format("{:.1f} h", seconds / 3600.0);
-}
-
-/// What a store already has of a plan.
-struct Stock {
-  std::size_t done = 0, failed = 0;
-  std::vector<sweep::RunRequest> left;  ///< to be made
-  std::optional<double> rate;           ///< of the store's runs
-};
-
-Stock stock_of(const Options& options, const sweep::Plan& plan) {
-  std::vector<std::string> hashes;
-  for (const auto& request : plan.requests) hashes.push_back(sweep::content_hash(request));
-  std::map<std::string, sweep::RunRecord> known;
-  Stock stock;
-  if (sweep::Store::exists(options.store_folder())) {  // opening would make it
-    sweep::Store store(options.store_folder());
-    known = store.records(hashes);
-    stock.rate = store.rate();
-  }
-  for (std::size_t k = 0; k < hashes.size(); ++k) {
-    const auto status = known[hashes[k]].status;
-    const bool failed = status == sweep::RunStatus::failed;
-    stock.done += status == sweep::RunStatus::done;
-    stock.failed += failed;
-    if (status == sweep::RunStatus::done || (failed && !options.making.retry_failed)) continue;
-    stock.left.push_back(plan.requests[k]);
-  }
-  return stock;
-}
-
-/// What there is to do, without doing it.
-void tell_plan(const Options& options, const sweep::Plan& plan) {
-  const auto [done, failed, left, rate] = stock_of(options, plan);
-  say(fmt::format("{} runs: {} in the store, {} failed before, {} to make", plan.runs.size(), done, failed,
-                  left.size()));
-  if (left.empty()) return;
-  const auto work = sweep::estimate(left);
-  const double cores = static_cast<double>(std::min(thread_count(), left.size()));
-  const double per_core = rate.value_or(sweep::kStatedRate);
-  say(fmt::format(
-      "about {} on {} cores ({:.3g} particle-steps at {:.3g} M per second and core, {}), {:.2g} MB",
-      duration(work.particle_steps / (per_core * cores)), cores, work.particle_steps, 1e-6 * per_core,
-      rate ? "as the store's runs went" : "a guess until the store has runs", 1e-6 * work.bytes));
-}
 
 void run(const Options& options) {
   apply(options.common);
@@ -78,14 +24,14 @@ void run(const Options& options) {
   const auto seed = options.seed_given ? std::optional(options.common.seed) : std::nullopt;
   const sweep::SweepFile file = sweep::read_sweep(options.file, seed);
   const sweep::Plan plan = sweep::plan_of(file);
-  if (options.dry_run) return tell_plan(options, plan);
+  if (options.dry_run) return tell_work(options.making, options.common, plan.requests);
   make_folder(options.common.out);
   std::vector<fs::path> inputs = {options.file, file.sample};
   if (!file.packing.empty()) inputs.push_back(file.packing);
   Provenance from = provenance(options.common, inputs);
   from.seed = file.seed;
 
-  const auto outcomes = make_runs(options.making, options.common, file.name, plan);
+  const auto outcomes = make_runs(options.making, options.common, file.name, plan.requests);
   sweep::write_tables(options.common.out, plan, outcomes, from);
   if (const std::string failed = failures(outcomes); !failed.empty()) throw ComputationFailed(failed);
   say(fmt::format("{}: {} runs done, {}", file.name, outcomes.size(),

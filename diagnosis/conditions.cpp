@@ -1,9 +1,13 @@
 #include "diagnosis/conditions.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
+#include "dem_core/simulation.h"
 #include "diagnosis/believed.h"
 #include "diagnosis/curve_signature.h"
+#include "diagnosis/funicular.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -12,6 +16,11 @@ constexpr double kSeriesStrain = 0.06;          // shows the linear part
 constexpr double kLongestStrain = 0.5;          // that a sample may ask for
 constexpr double kLonger = 1.15, kToe = 0.005;  // room beyond the observed strain
 constexpr double kSameUnloading = 1e-3;         // strains nearer than this are one unloading
+// Courses are rounded to these steps, so that repeated measurements of a specimen share their runs.
+constexpr double kStrainStep = 5e-3, kUnloadingStep = 1e-3;
+constexpr double kFrames = 24.0;            // of a run that answers displacements
+constexpr double kQuasiStatic = 1e-4;       // speed in model units below which inertia does not show
+constexpr double kRelaxationStrain = 0.01;  // of the base sample, in its polymer's relaxation time
 
 /// Adds strains at which to unload, in order, none twice.
 void add_unloadings(std::vector<double>& strains, const std::vector<double>& more) {
@@ -31,21 +40,64 @@ bool needs_test(Kind kind) {
 std::string without_course(Sample sample) {
   sample.compression.max_strain = 0.1;
   sample.compression.unload_at.clear();
+  sample.compression.frames = 0.0;
   return sample_text(sample);
+}
+
+std::vector<double> rounded(std::vector<double> strains) {
+  for (double& strain : strains) strain = kUnloadingStep * std::round(strain / kUnloadingStep);
+  return strains;
+}
+
+/// Beads as measured are used as they are; nothing is shown that no observation asks for.
+void set_course(Sample& sample, const Observation& observation) {
+  if (!observation.beads.empty()) sample.beads.diameters = "measured";
+  sample.observe = {false, false, false, false, false};
+  sample.compression.frames = observation.kind == Kind::displacements ? kFrames : 0.0;
+}
+
+/// Whether an experiment tells the rates of its tests apart.
+bool states_rates(const Experiment& experiment) {
+  for (const auto& observation : experiment.observations)
+    for (const auto& [key, value] : observation.set)
+      if (key == "compression.speed" || key == "compression.speed_mm_s") return true;
+  return false;
+}
+
+/// A platen slower than quasi-static is simulated at that speed. The polymer's time, the same for all tests,
+/// shortens with it.
+void set_speed(Sample& sample, const Experiment& experiment) {
+  const double stated = platen_speed(sample);
+  Sample slow = sample;
+  slow.compression.speed = kQuasiStatic;
+  slow.compression.speed_si = std::nullopt;
+  const double simulated = std::max(stated, platen_speed(slow));
+  if (states_rates(experiment)) {
+    const Sample& base = experiment.sample;
+    const double time =
+        base.bridges.relaxation_time.value_or(kRelaxationStrain * base.specimen.height / platen_speed(base));
+    sample.bridges.relaxation_time = time * stated / simulated;
+  }
+  if (simulated > stated) sample.compression = slow.compression;
 }
 
 Condition condition_of(const Experiment& experiment, std::size_t index) {
   const Observation& observation = experiment.observations[index];
   Condition condition{experiment.sample_of(observation), observation.beads, {index}};
+  set_course(condition.sample, observation);
+  set_speed(condition.sample, experiment);
   if (!observation.has("strain")) {
     condition.sample.compression.max_strain = kSeriesStrain;
     return condition;
   }
   const auto& strain = observation.column("strain");
-  condition.sample.compression.max_strain =
-      std::min(kLongestStrain, kLonger * *std::max_element(strain.begin(), strain.end()) + kToe);
+  condition.sample.compression.max_strain = std::min(
+      kLongestStrain,
+      kStrainStep *
+          std::ceil((kLonger * *std::max_element(strain.begin(), strain.end()) + kToe) / kStrainStep));
   if (observation.kind == Kind::compression)
-    condition.sample.compression.unload_at = unloading_strains({strain, observation.column("stress_pa")});
+    condition.sample.compression.unload_at =
+        rounded(unloading_strains({strain, observation.column("stress_pa")}));
   return condition;
 }
 
@@ -55,6 +107,7 @@ void merge(std::vector<Condition>& all, Condition next) {
     if (without_course(condition.sample) != without_course(next.sample)) continue;
     auto &course = condition.sample.compression, &longer = next.sample.compression;
     course.max_strain = std::max(course.max_strain, longer.max_strain);
+    course.frames = std::max(course.frames, longer.frames);
     add_unloadings(course.unload_at, longer.unload_at);
     condition.observations.push_back(next.observations.front());
     return;
@@ -62,12 +115,29 @@ void merge(std::vector<Condition>& all, Condition next) {
   all.push_back(std::move(next));
 }
 
+/// Rows of a series that are simulated: its ends, and in polymer content those on both sides of the funicular
+/// transition. Between them the logarithm of E is interpolated (series.h).
+std::vector<std::size_t> supporting_rows(const std::vector<double>& at, bool by_content) {
+  std::vector<std::size_t> order(at.size()), rows;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return at[a] < at[b]; });
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const auto beyond = [&](std::size_t n) { return by_content && at[order[n]] > kFunicularContent; };
+    const bool end = k == 0 || k + 1 == order.size();
+    if (end || beyond(k) != beyond(k - 1) || beyond(k) != beyond(k + 1)) rows.push_back(order[k]);
+  }
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
 void add_series(std::vector<Condition>& all, const Experiment& experiment, std::size_t index) {
   const Observation& observation = experiment.observations[index];
   const bool by_content = observation.has("W");
   const auto& at = observation.column(by_content ? "W" : "E_p_pa");
-  for (std::size_t row = 0; row < at.size(); ++row) {
+  for (const std::size_t row : supporting_rows(at, by_content)) {
     const Sample sample = changed_sample(experiment.sample_of(observation), [&](Sample& changed) {
+      set_course(changed, observation);
+      set_speed(changed, experiment);
       if (by_content)
         set_polymer_content(changed, at[row]);
       else

@@ -16,8 +16,9 @@ struct Condition {
 
 /// What must be simulated to answer an experiment, each specimen and test once: observations that differ in
 /// nothing but how far they go share a condition that goes as far as the farthest, unloads where any of them
-/// does, and leaves room for a toe of another length. A modulus series is a condition per row. Measured
-/// single bridges need none.
+/// does, and leaves room for a toe of another length. A modulus series is a condition for each row that
+/// supports the others. Measured single bridges need none. Tests slower than quasi-static are simulated at
+/// 1e-4 in model units, with the polymer's relaxation time shortened likewise.
 std::vector<Condition> conditions_of(const Experiment& experiment);
 
 }  // namespace pendular::diagnosis

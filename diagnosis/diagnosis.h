@@ -23,7 +23,7 @@ struct Explanation {
   std::vector<std::string> units;     ///< likewise
   double misfit = 0.0;                ///< distance squared that its best magnitudes leave, over the features
   bool excluded = false;
-  std::string reason;  ///< why it is excluded or cannot be told; empty: nothing to say
+  std::string reason = {};  ///< why it is excluded or cannot be told; empty: nothing to say
 };
 
 /// What one group of features says of an effect's magnitude by itself.

@@ -8,14 +8,18 @@
 
 namespace pendular::diagnosis {
 
-/// What an effect of magnitude θ does to the features, θ linear + θ² curved; and how large it may be.
+/// What an effect of magnitude θ does to the features, Σ θ^(k+1) powers[k]; and how large it may be.
 struct Signature {
   std::string id;
-  Eigen::VectorXd linear, curved;
+  std::vector<Eigen::VectorXd> powers;
   double lowest = 0.0, highest = 0.0;  ///< of θ
   double scale = 0.0;                  ///< sd of θ a priori, about zero, within its range
 
-  Eigen::VectorXd at(double theta) const { return theta * linear + theta * theta * curved; }
+  Eigen::VectorXd at(double theta) const {
+    Eigen::VectorXd sum = theta * powers.back();  // Horner's scheme
+    for (std::size_t k = powers.size() - 1; k > 0; --k) sum = theta * (powers[k - 1] + sum);
+    return sum;
+  }
 };
 
 /// A gap to be explained. Features are logarithms of ratios or differences of strains; all in one order.

@@ -132,7 +132,7 @@ CompressResult compress_with_effects(const Packing& measured, const Sample& beli
     options.evolution = evolution_of(specimen, active);
     options.read_rows = [&](std::vector<CurveRow>& rows, const Simulation& simulation) {
       for (const auto& [effect, theta, draws] : active)
-        if (effect->rows) effect->rows(rows, simulation, theta);
+        if (effect->rows) effect->rows(rows, {simulation.section, simulation.initial_height}, theta);
     };
   }
   return compress(specimen.packing, specimen.sample, folder, options);

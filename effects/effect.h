@@ -45,6 +45,11 @@ struct ActualSpecimen {
   std::vector<BridgeBody> believed_bodies, bodies;
 };
 
+/// By what strain and stress are reckoned from travel and force.
+struct Gauge {
+  double section, height;  ///< of the specimen before its test, m², m
+};
+
 /// Something that a real specimen, its test or its measurement may have and the paper's model has not.
 /// θ is its magnitude in `unit`; at 0 there is no effect. Each hook is null where the effect does not enter;
 /// effects are called in the order of the list, hooks in the order in which they stand here.
@@ -53,6 +58,7 @@ struct Effect {
   std::string meaning;        ///< of θ, one line
   double lowest, highest;     ///< accepted θ
   double bank_from, bank_to;  ///< θ of a typical bank of runs
+  bool of_the_ends = false;   ///< θ is a length that counts as a share of the specimen's size
   /// What the sample file states otherwise than it is.
   void (*sample)(Sample& sample, double theta) = nullptr;
   /// From the beads and bridges as measured to those that are, before diameters are drawn; and back.
@@ -71,7 +77,7 @@ struct Effect {
   std::function<void(const BondMoment&)> (*evolution)(const ActualSpecimen& specimen, double theta) = nullptr;
   std::size_t memory = 0;
   /// What the instruments make of the rows.
-  void (*rows)(std::vector<CurveRow>& rows, const Simulation& simulation, double theta) = nullptr;
+  void (*rows)(std::vector<CurveRow>& rows, const Gauge& gauge, double theta) = nullptr;
 };
 
 }  // namespace pendular::effects

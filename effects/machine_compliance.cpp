@@ -3,9 +3,8 @@
 namespace pendular::effects {
 namespace {
 
-void read(std::vector<CurveRow>& rows, const Simulation& simulation, double theta) {
-  for (auto& row : rows)
-    row.strain += 1e-6 * theta * row.stress * simulation.section / simulation.initial_height;
+void read(std::vector<CurveRow>& rows, const Gauge& gauge, double theta) {
+  for (auto& row : rows) row.strain += 1e-6 * theta * row.stress * gauge.section / gauge.height;
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ Effect platen_roughness() {
           .highest = 200.0,
           .bank_from = 0.0,
           .bank_to = 40.0,
+          .of_the_ends = true,
           .simulation = roughen};
 }
 

@@ -31,13 +31,15 @@ struct Creep {
 
 std::function<void(const BondMoment&)> evolution(const ActualSpecimen& specimen, double theta) {
   const Sample& stated = specimen.believed;
-  return Creep{theta, kRelaxationStrain * stated.specimen.height / platen_speed(stated)};
+  return Creep{theta, stated.bridges.relaxation_time.value_or(kRelaxationStrain * stated.specimen.height /
+                                                              platen_speed(stated))};
 }
 
 }  // namespace
 
-/// The paper's polymer is elastic. A real one relaxes: the share θ of each bridge's stiffness decays, in the
-/// time in which a platen at the stated speed strains the specimen by 1 %; the instantaneous stiffness is the
+/// The paper's polymer is elastic. A real one relaxes: the share θ of each bridge's stiffness decays, in
+/// bridges.relaxation_time_s or, where that is not stated, in the time in which a platen at the stated speed
+/// strains the specimen by 1 %; the instantaneous stiffness is the
 /// stated one. Bending and twisting do not relax. The criterion of breaking sees the strain that the springs
 /// still hold. Lowers E and makes it depend on the speed; loops open.
 Effect polymer_viscoelasticity() {

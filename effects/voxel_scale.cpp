@@ -30,7 +30,7 @@ void reading(Packing& packing, double theta, const Draws&) {
   scale(packing, 1.0 + theta);
 }
 
-void rows(std::vector<CurveRow>& rows, const Simulation&, double theta) {
+void rows(std::vector<CurveRow>& rows, const Gauge&, double theta) {
   for (auto& row : rows) {
     row.strain /= 1.0 + theta;
     row.stress /= (1.0 + theta) * (1.0 + theta);

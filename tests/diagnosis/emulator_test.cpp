@@ -12,60 +12,79 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-Eigen::VectorXd two(double a, double b) {
-  return Eigen::Vector2d(a, b);
-}
-
-TEST(Emulator, FindsAQuadratic) {
-  std::vector<PairedRun> runs;
-  for (double theta : {0.1, 0.2, 0.3}) runs.push_back({theta, two(2.0 * theta - theta * theta, -theta)});
-  const auto fitted = fit_signature("e", runs, 2);
-  EXPECT_NEAR(fitted.signature.at(0.25)[0], 2.0 * 0.25 - 0.0625, 1e-12);
-  EXPECT_NEAR(fitted.signature.at(0.25)[1], -0.25, 1e-12);
-  EXPECT_NEAR(fitted.freedom, 1.0, 1e-12);
-  EXPECT_LT(fitted.residuals.norm(), 1e-12);
+TEST(Emulator, FindsAQuadraticBesideMembersOfTheirOwn) {
+  std::vector<DesignRun> runs;
+  for (int member : {1, 2, 3}) runs.push_back({member, "", 0.0, Eigen::Vector2d(member, 10.0)});
+  for (int level : {1, 2, 3}) {
+    const double theta = 0.1 * level;
+    runs.push_back({level, "e", theta, Eigen::Vector2d(level + 2.0 * theta - theta * theta, 10.0 - theta)});
+  }
+  const auto responses = fit_responses(runs, 2);
+  const Signature* found = responses.find("e");
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->at(0.25)[0], 2.0 * 0.25 - 0.0625, 1e-10);
+  EXPECT_NEAR(found->at(0.25)[1], -0.25, 1e-10);
+  EXPECT_NEAR(responses.offsets(1, 0), 2.0, 1e-10);
+  EXPECT_NEAR(responses.between(0, 0), 1.0, 1e-10);  // of 1, 2, 3
+  EXPECT_NEAR(responses.within.norm(), 0.0, 1e-12);
+  EXPECT_NEAR(responses.freedom, 1.0, 1e-12);
+  EXPECT_FALSE(responses.find("other"));
 }
 
 TEST(Emulator, UsesWhatRunsShow) {
-  // The second feature is seen at two magnitudes only: a straight line; a third is never seen: nothing.
-  std::vector<PairedRun> runs;
+  // The second feature is seen at two magnitudes only; a third never with the effect: no response.
+  std::vector<DesignRun> runs = {{1, "", 0.0, Eigen::Vector3d(0.0, 0.0, 5.0)}};
   for (double theta : {0.1, 0.2, 0.3})
-    runs.push_back({theta, Eigen::Vector3d(theta, theta < 0.25 ? 3.0 * theta : kNaN, kNaN)});
-  const auto fitted = fit_signature("e", runs, 3);
-  EXPECT_NEAR(fitted.signature.linear[1], 3.0, 1e-12);
-  EXPECT_EQ(fitted.signature.curved[1], 0.0);
-  EXPECT_EQ(fitted.signature.linear[2], 0.0);
-  EXPECT_TRUE(fitted.residuals.allFinite());
+    runs.push_back({1, "e", theta, Eigen::Vector3d(theta, theta < 0.25 ? 3.0 * theta : kNaN, kNaN)});
+  const auto responses = fit_responses(runs, 3);
+  const Signature& found = *responses.find("e");
+  EXPECT_NEAR(found.at(0.1)[1], 0.3, 1e-10);
+  EXPECT_EQ(found.at(0.2)[2], 0.0);
+  EXPECT_NEAR(responses.offsets(0, 2), 5.0, 1e-10);
 }
 
-TEST(Emulator, PooledCovarianceIsThatOfTheNoise) {
-  // Forty effects of six runs each, with noise of sd 0.1 and 0.2 and a correlation of 0.6.
-  std::vector<Eigen::MatrixXd> residuals;
-  double freedom = 0.0;
-  for (std::uint64_t effect = 0; effect < 40; ++effect) {
-    std::vector<PairedRun> runs;
-    for (std::uint64_t run = 0; run < 6; ++run) {
-      const double a = random_normal(effect, 2 * run), b = random_normal(effect, 2 * run + 1);
-      const double theta = 0.1 * static_cast<double>(1 + run % 3);
-      runs.push_back({theta, two(theta + 0.1 * a, 0.2 * (0.6 * a + 0.8 * b))});
-    }
-    const auto fitted = fit_signature("e", runs, 2);
-    residuals.push_back(fitted.residuals);
-    freedom += fitted.freedom;
+TEST(Emulator, ScatterIsThatOfTheNoise) {
+  // Noise of sd 0.1 and 0.2 with a correlation of 0.6 on top of members that lie 0.3 apart (sd).
+  std::vector<DesignRun> runs;
+  const auto noisy = [&](int member, const std::string& id, double theta) {
+    const std::uint64_t n = runs.size();
+    const double a = random_normal(5, 2 * n), b = random_normal(5, 2 * n + 1);
+    const double offset = 0.3 * random_normal(6, static_cast<std::uint64_t>(member));
+    runs.push_back(
+        {member, id, theta, Eigen::Vector2d(offset + theta + 0.1 * a, offset + 0.2 * (0.6 * a + 0.8 * b))});
+  };
+  for (int member = 0; member < 40; ++member) {
+    noisy(member, "", 0.0);
+    for (int effect = 0; effect < 6; ++effect)
+      noisy(member, std::string(2, static_cast<char>('a' + effect)), 0.1 * (1 + member % 3));
   }
-  EXPECT_NEAR(freedom, 160.0, 1e-9);
-  const auto pooled = pooled_covariance(residuals, freedom);
-  EXPECT_NEAR(pooled.covariance(0, 0), 0.01, 0.0025);
-  EXPECT_NEAR(pooled.covariance(1, 1), 0.04, 0.01);
-  EXPECT_NEAR(pooled.covariance(0, 1) / std::sqrt(pooled.covariance(0, 0) * pooled.covariance(1, 1)), 0.6,
-              0.12);
+  const auto responses = fit_responses(runs, 2);
+  EXPECT_NEAR(responses.within(0, 0), 0.01, 0.0025);
+  EXPECT_NEAR(responses.within(1, 1), 0.04, 0.01);
+  EXPECT_NEAR(responses.within(0, 1) / std::sqrt(responses.within(0, 0) * responses.within(1, 1)), 0.6, 0.1);
+  EXPECT_NEAR(responses.between(0, 1), 0.09, 0.05);
+  const auto scatter = scatter_of(responses);
+  EXPECT_GT(scatter.freedom, 30.0);
+  EXPECT_GT(scatter.covariance(0, 0), responses.between(0, 0) + responses.within(0, 0));
 }
 
-TEST(Emulator, FewRunsDoNotPretendToKnowCorrelations) {
-  const Eigen::MatrixXd one = Eigen::MatrixXd::Constant(1, 6, 1.0);
-  const auto pooled = pooled_covariance({one}, 1.0);
-  EXPECT_NEAR(pooled.covariance(0, 1), 1.0 / 7.0, 1e-12);
-  EXPECT_NEAR(pooled.covariance(0, 0), 1.0, 1e-12);
+TEST(Emulator, FewMembersDoNotPretendToKnowCorrelations) {
+  Responses responses;
+  responses.members = {1, 2};
+  responses.between = Eigen::MatrixXd::Ones(6, 6);
+  responses.within = Eigen::MatrixXd::Zero(6, 6);
+  const auto scatter = scatter_of(responses);
+  EXPECT_NEAR(scatter.freedom, 1.0, 1e-12);
+  EXPECT_NEAR(scatter.covariance(0, 1), 1.5 / 7.0, 1e-12);
+  EXPECT_NEAR(scatter.covariance(0, 0), 1.5, 1e-12);
+}
+
+TEST(Emulator, ExactChangesGiveAPolynomialThroughThem) {
+  std::vector<double> theta = {1.0, 2.0, 3.0, 4.0};
+  std::vector<Eigen::VectorXd> changes;
+  for (double t : theta) changes.push_back(Eigen::VectorXd::Constant(1, t - 0.5 * t * t + 0.1 * t * t * t));
+  const auto found = exact_signature("e", theta, changes, 3);
+  EXPECT_NEAR(found.at(2.5)[0], 2.5 - 0.5 * 6.25 + 0.1 * 15.625, 1e-10);
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ std::vector<Signature> effects(int count, double strength) {
   for (int k = 0; k < count; ++k) {
     Signature s;
     s.id = std::string(1, static_cast<char>('a' + k));
-    s.linear = strength * draw(100 + static_cast<std::uint64_t>(k)).normalized();
-    s.curved = 0.1 * strength * draw(200 + static_cast<std::uint64_t>(k)).normalized();
+    s.powers = {strength * draw(100 + static_cast<std::uint64_t>(k)).normalized(),
+                0.1 * strength * draw(200 + static_cast<std::uint64_t>(k)).normalized()};
     s.lowest = 0.0, s.highest = 3.0, s.scale = 1.0;
     all.push_back(s);
   }
@@ -47,8 +47,7 @@ TEST(Evidence, OfOneFeatureIsTheIntegralInClosedForm) {
   // One feature, one effect with a wide normal prior: evidence of a normal of variance 1 + (scale·slope)².
   Signature s;
   s.id = "a";
-  s.linear = Eigen::VectorXd::Constant(1, 2.0);
-  s.curved = Eigen::VectorXd::Zero(1);
+  s.powers = {Eigen::VectorXd::Constant(1, 2.0)};
   s.lowest = -8.0, s.highest = 8.0, s.scale = 1.0;
   const Gap gap = {Eigen::VectorXd::Constant(1, 3.0), Eigen::MatrixXd::Constant(1, 1, 1.0), 0.0,
                    Eigen::MatrixXd::Zero(1, 0)};
@@ -106,7 +105,7 @@ TEST(Evidence, SaysUnknownWhereNoEffectFits) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     Eigen::VectorXd outside = draw(9000 + seed);
     for (int round = 0; round < 50; ++round)
-      for (const auto& s : all) outside -= s.linear.normalized() * s.linear.normalized().dot(outside);
+      for (const auto& s : all) outside -= s.powers[0].normalized() * s.powers[0].normalized().dot(outside);
     const auto found = weigh(gap_of(10.0 * outside.normalized() + draw(9500 + seed)), all);
     unknown += found.front().id == "unknown";
     sure_and_wrong += found.front().id != "unknown" && found.front().probability > 0.9;
@@ -119,7 +118,7 @@ TEST(Evidence, WhatABelievedInputCanAbsorbIsNoEffect) {
   const auto all = effects(4, 8.0);
   Gap gap = gap_of(all[2].at(1.0));
   EXPECT_GT(probability(weigh(gap, all), "c"), 0.8);
-  gap.believed = all[2].linear;
+  gap.believed = all[2].powers[0];
   EXPECT_EQ(weigh(gap, all).front().id, "none");
 }
 
@@ -133,9 +132,8 @@ TEST(Evidence, AnEstimatedCovarianceIsTrustedLess) {
 
 TEST(Evidence, AlikeEffectsAreNotIsolable) {
   auto all = effects(3, 8.0);
-  all[1].linear = 0.7 * all[0].linear;
-  all[1].curved = Eigen::VectorXd::Zero(kFeatures);
-  all[0].curved = Eigen::VectorXd::Zero(kFeatures);
+  all[0].powers.resize(1);
+  all[1].powers = {0.7 * all[0].powers[0]};
   const auto distance = isolability(gap_of(Eigen::VectorXd::Zero(kFeatures)), all);
   EXPECT_LT(distance(0, 1), 0.1);
   EXPECT_GT(distance(0, 2), 9.0);

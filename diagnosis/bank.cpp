@@ -1,0 +1,170 @@
+#include "diagnosis/bank.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "diagnosis/believed.h"
+#include "diagnosis/funicular.h"
+#include "diagnosis/specimens.h"
+#include "effects/list.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr int kGenerated = 5, kMeasured = 3;  // members of an ensemble
+constexpr double kMostBeads = 2000.0, kBankBeads = 1500.0;
+constexpr double kModulusShare = 0.05, kFractionSd = 0.01;  // of believed inputs of which nothing is stated
+
+bool is_effect(const std::string& id) {
+  const auto& all = effects::all_effects();
+  return std::any_of(all.begin(), all.end(), [&](const auto& effect) { return effect.id == id; });
+}
+
+const SampleKey& key_of(const std::string& name) {
+  static const std::vector<SampleKey> keys = sample_keys();
+  return *std::find_if(keys.begin(), keys.end(), [&](const SampleKey& key) { return key.name == name; });
+}
+
+/// A believed value moved by standard deviations; in the same share where this specimen has another value.
+double moved(const Experiment& experiment, const Sample& sample, const std::string& key, double sds) {
+  const double sd = floating_inputs(experiment).at(key);
+  const double base = sample_key(experiment.sample, key), here = sample_key(sample, key);
+  const double value = base != 0.0 ? here * (1.0 + sds * sd / base) : here + sds * sd;
+  return std::clamp(value, key_of(key).lowest, key_of(key).highest);
+}
+
+/// Magnitudes of an effect in the bank.
+std::vector<double> magnitudes_of(const effects::Effect& effect, int levels) {
+  std::vector<double> found;
+  const bool both = effect.bank_from < 0.0 && effect.bank_to > 0.0;
+  const int count = both ? std::max(2, levels - 1) : std::max(1, levels);
+  for (int k = 1; k <= count; ++k) {
+    const double share = static_cast<double>(k) / count;
+    if (both && (k == count || levels > 2)) found.push_back(share * effect.bank_from);
+    found.push_back(share * (effect.bank_to != 0.0 ? effect.bank_to : effect.bank_from));
+  }
+  return found;
+}
+
+bool reads_only(const effects::Effect& effect) {
+  return effect.rows && !effect.sample && !effect.truth && !effect.packing && !effect.body &&
+         !effect.simulation && !effect.evolution;
+}
+
+/// Why an effect cannot act in any of these tests; empty where it can.
+std::string why_inert(const effects::Effect& effect, const std::vector<Condition>& conditions) {
+  if (effect.id != "funicular_bridges") return "";
+  for (const auto& condition : conditions)
+    if (condition.sample.bridges.polymer_content > kFunicularContent) return "";
+  return fmt::format("no specimen has more polymer than the funicular transition, W* = {}",
+                     kFunicularContent);
+}
+
+/// A specimen of the same shape with fewer beads.
+Condition smaller(Condition condition, double size) {
+  condition.sample.specimen.diameter *= size;
+  condition.sample.specimen.height *= size;
+  return condition;
+}
+
+class Planner {
+ public:
+  Planner(const Experiment& experiment, const BankOptions& options, const fs::path& folder)
+      : experiment_(experiment), options_(options), folder_(folder) {
+    plan_.conditions = conditions_of(experiment);
+    for (const auto& condition : plan_.conditions) {
+      const double beads = beads_in(condition);
+      const bool scaled = condition.beads.empty() && beads > kMostBeads;
+      plan_.size.push_back(scaled ? std::cbrt(kBankBeads / beads) : 1.0);
+      measured_ = measured_ && !condition.beads.empty();
+      scaled_ = scaled_ || scaled;
+    }
+  }
+
+  BankPlan plan() {
+    const int members = measured_ ? kMeasured : kGenerated;
+    for (int member = 1; member <= members; ++member) {
+      add({member, "", 0.0, !scaled_});
+      if (scaled_) add({member, "", 0.0, true});
+    }
+    int turn = 0;
+    for (const auto& effect : effects::all_effects()) {
+      if (options_.leave_out.contains(effect.id)) {
+        plan_.absent[effect.id] = "left out as asked";
+      } else if (const std::string why = why_inert(effect, plan_.conditions); !why.empty()) {
+        plan_.absent[effect.id] = why;
+      } else if (!reads_only(effect)) {
+        for (double theta : magnitudes_of(effect, options_.levels))
+          add({1 + turn++ % members, effect.id, theta, !scaled_});
+        ++turn;
+      }
+    }
+    for (const auto& [key, sd] : floating_inputs(experiment_)) {
+      if (sd <= 0.0) continue;
+      // A packing denser than stated may not exist.
+      const bool dense = key == "specimen.volume_fraction";
+      for (double sds : {-2.0, dense ? -1.0 : 2.0}) add({1 + turn++ % members, key, sds, !scaled_});
+    }
+    return std::move(plan_);
+  }
+
+ private:
+  void add(const DesignPoint& point) {
+    for (std::size_t c = 0; c < plan_.conditions.size(); ++c) {
+      Changes changes;
+      if (!point.id.empty()) changes[point.id] = point.theta;
+      plan_.requests.push_back(request_of(experiment_, plan_.conditions[c], point.member, changes, folder_,
+                                          point.whole ? 1.0 : plan_.size[c]));
+      plan_.runs.push_back({plan_.points.size(), c});
+    }
+    plan_.points.push_back(point);
+  }
+
+  const Experiment& experiment_;
+  const BankOptions& options_;
+  fs::path folder_;
+  BankPlan plan_;
+  bool measured_ = true, scaled_ = false;
+};
+
+}  // namespace
+
+Sample changed_condition(const Experiment& experiment, const Condition& condition, const Changes& changes,
+                         double size) {
+  return changed_sample(condition.sample, [&](Sample& sample) {
+    for (const auto& [id, value] : changes) {
+      if (!is_effect(id))
+        set_sample_key(sample, id, moved(experiment, condition.sample, id, value));
+      else if (value != 0.0)
+        sample.effects[id] = effects::find_effect(id, "diagnosis").of_the_ends ? size * value : value;
+    }
+  });
+}
+
+std::map<std::string, double> floating_inputs(const Experiment& experiment) {
+  auto inputs = experiment.uncertainty;
+  const std::string modulus = "bridges.youngs_modulus_pa", fraction = "specimen.volume_fraction";
+  if (!inputs.contains(modulus)) inputs[modulus] = kModulusShare * sample_key(experiment.sample, modulus);
+  const bool generated = std::any_of(experiment.observations.begin(), experiment.observations.end(),
+                                     [](const Observation& o) { return o.beads.empty() && o.has("strain"); });
+  if (generated && !inputs.contains(fraction)) inputs[fraction] = kFractionSd;
+  return inputs;
+}
+
+BankPlan plan_bank(const Experiment& experiment, const BankOptions& options, const fs::path& beads_folder) {
+  return Planner(experiment, options, beads_folder).plan();
+}
+
+sweep::RunRequest request_of(const Experiment& experiment, const Condition& condition, int member,
+                             const Changes& changes, const fs::path& beads_folder, double size) {
+  const Condition sized = smaller(condition, size);
+  sweep::RunRequest request;
+  request.sample = changed_condition(experiment, sized, changes, size);
+  request.packing = beads_of_member(sized, member, beads_folder);
+  request.seed = static_cast<std::uint64_t>(member);
+  request.keep_all = request.sample.compression.frames > 0.0;
+  return request;
+}
+
+}  // namespace pendular::diagnosis

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "diagnosis/conditions.h"
+#include "sweep/request.h"
+
+namespace pendular::diagnosis {
+
+/// What is changed in a simulation: magnitudes of effects by their ids, believed inputs by their dotted keys
+/// in standard deviations.
+using Changes = std::map<std::string, double>;
+
+/// A condition's sample with some changes. A believed input that an observation sets itself changes by the
+/// same share. Values stop at the ends of the key's range. `size`: the specimen's over the observed one's;
+/// effects that are lengths of the specimen's ends scale with it.
+Sample changed_condition(const Experiment& experiment, const Condition& condition, const Changes& changes,
+                         double size = 1.0);
+
+/// Standard deviations of believed inputs that float: those stated and, where nothing is stated, five per
+/// cent of the polymer's modulus and, of specimens whose beads were not measured, 0.01 of volume fraction.
+std::map<std::string, double> floating_inputs(const Experiment& experiment);
+
+/// One simulation of all conditions.
+struct DesignPoint {
+  int member = 1;
+  std::string id;      ///< of the effect or believed input that is changed; empty: none
+  double theta = 0.0;  ///< magnitude, or standard deviations
+  bool whole = true;   ///< specimens of the observed size; else smaller ones (BankPlan::size)
+};
+
+struct BankOptions {
+  int levels = 3;                   ///< magnitudes of each effect
+  std::set<std::string> leave_out;  ///< effects that are not considered
+};
+
+/// The runs from which responses to effects and believed inputs are learnt.
+struct BankPlan {
+  struct Run {
+    std::size_t point, condition;
+  };
+  std::vector<Condition> conditions;
+  std::vector<double> size;  ///< per condition: of the bank's specimens over the observed one
+  std::vector<DesignPoint> points;
+  std::vector<Run> runs;  ///< one per request
+  std::vector<sweep::RunRequest> requests;
+  std::map<std::string, std::string> absent;  ///< effects without runs, and why
+};
+
+/// Baselines of every member; each effect at thirds of its range (in both directions where it has two) and
+/// each believed input at two standard deviations to both sides, on members in turn. Specimens of more than
+/// 2,000 beads that were not measured get a smaller one of the same shape, beside baselines of their own
+/// size. Effects that only change what instruments read need no runs.
+BankPlan plan_bank(const Experiment& experiment, const BankOptions& options, const fs::path& beads_folder);
+
+/// The run of one condition with some changes, its specimen of the observed size times `size`.
+sweep::RunRequest request_of(const Experiment& experiment, const Condition& condition, int member,
+                             const Changes& changes, const fs::path& beads_folder, double size = 1.0);
+
+}  // namespace pendular::diagnosis

@@ -1,0 +1,117 @@
+#include "diagnosis/diagnose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "diagnosis/next_experiments.h"
+#include "diagnosis/shrinkage.h"
+#include "diagnosis/verdict.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr double kContradiction = 4.0;  // sigma between two measurements of one thing
+
+Changes changes_of(const DesignPoint& point) {
+  return point.id.empty() ? Changes{} : Changes{{point.id, point.theta}};
+}
+
+/// The bank's tests, by point.
+std::vector<SimulatedTests> bank_tests(const BankPlan& plan, const MakeRuns& make_runs,
+                                       Diagnosis& diagnosis) {
+  const auto outcomes = make_runs("bank", plan.requests);
+  std::vector<SimulatedTests> tests(plan.points.size(), SimulatedTests(plan.conditions.size()));
+  std::size_t baselines = 0;
+  std::string why;
+  for (std::size_t k = 0; k < outcomes.size(); ++k) {
+    const auto& [point, condition] = plan.runs[k];
+    const DesignPoint& of = plan.points[point];
+    auto& test = tests[point][condition];
+    test = read_outcome(outcomes[k], condition, purpose_of(changes_of(of)), diagnosis.ledger);
+    if (of.id.empty() && test) ++baselines;
+    if (of.id.empty() && !test) why = outcomes[k].message;
+  }
+  if (baselines == 0 && !outcomes.empty())
+    throw ComputationFailed(
+        fmt::format("no specimen could be simulated as believed; the last one said: {}", why));
+  return tests;
+}
+
+void add_overlays(const Experiment& experiment, const BankPlan& plan,
+                  const std::vector<SimulatedTests>& tests, Diagnosis& diagnosis) {
+  for (std::size_t index = 0; index < experiment.observations.size(); ++index) {
+    const Observation& observation = experiment.observations[index];
+    Overlay overlay{observation.name, observation.kind, observation.columns, {}, {}};
+    for (std::size_t k = 0; k < plan.points.size(); ++k) {
+      if (!plan.points[k].whole || !plan.points[k].id.empty()) continue;
+      if (auto columns = simulated_columns(experiment, plan.conditions, index, tests[k], {}))
+        overlay.simulated.push_back(std::move(*columns));
+    }
+    diagnosis.overlays.push_back(std::move(overlay));
+  }
+}
+
+/// Observations of one specimen and test that do not agree with each other.
+void warn_of_contradictions(const Experiment& experiment, const BankPlan& plan, Diagnosis& diagnosis) {
+  const ObservedFeatures all = observed_features(experiment);
+  const Eigen::VectorXd values = all.values();
+  for (const auto& condition : plan.conditions)
+    for (std::size_t a = 0; a < all.features.size(); ++a)
+      for (std::size_t b = a + 1; b < all.features.size(); ++b) {
+        const auto answers = [&](std::size_t f) {
+          return std::find(condition.observations.begin(), condition.observations.end(),
+                           all.observation[f]) != condition.observations.end();
+        };
+        if (all.observation[a] == all.observation[b] || all.features[a].name != all.features[b].name ||
+            !answers(a) || !answers(b))
+          continue;
+        const double apart = values[static_cast<Eigen::Index>(a)] - values[static_cast<Eigen::Index>(b)];
+        const double sigma =
+            std::hypot(std::hypot(all.sigmas[a], all.sigmas[b]), all.features[a].logarithm ? 0.02 : 1e-3);
+        if (std::fabs(apart) > kContradiction * sigma)
+          diagnosis.warnings.push_back(
+              fmt::format("{} and {} are of one specimen and test but differ in {} by {:.1f} sigma: they "
+                          "contradict each other",
+                          all.features[a].observation, all.features[b].observation, all.features[a].name,
+                          std::fabs(apart) / sigma));
+      }
+}
+
+/// What the reader must know of the input.
+void warn_of_input(const Experiment& experiment, Diagnosis& diagnosis) {
+  diagnosis.warnings = experiment.warnings;
+  for (const auto& [key, sd] : floating_inputs(experiment))
+    if (!experiment.uncertainty.contains(key))
+      diagnosis.warnings.push_back(fmt::format("no uncertainty of {} is stated: {:.3g} is assumed", key, sd));
+  for (const auto& [key, sd] : experiment.uncertainty)
+    if (sd == 0.0)
+      diagnosis.warnings.push_back(fmt::format("{} is stated without any uncertainty: taken as exact", key));
+  for (const auto& observation : experiment.observations)
+    if (features_of(observation, observation.columns).empty())
+      diagnosis.warnings.push_back(
+          observation.name + " shows nothing that can be compared (a curve that never becomes linear?)");
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Experiment& experiment, const BankPlan& plan, const fs::path& beads_folder,
+                   const MakeRuns& make_runs, const Rules& rules) {
+  Diagnosis diagnosis;
+  diagnosis.experiment = experiment.name;
+  warn_of_input(experiment, diagnosis);
+  warn_of_contradictions(experiment, plan, diagnosis);
+  const auto tests = bank_tests(plan, make_runs, diagnosis);
+  add_overlays(experiment, plan, tests, diagnosis);
+  const Problem problem = problem_of(experiment, plan, tests);
+  diagnosis.warnings.insert(diagnosis.warnings.end(), problem.warnings.begin(), problem.warnings.end());
+  judge(problem, rules, plan, experiment, diagnosis);
+  measure_shrinkage({experiment, plan, problem, beads_folder, make_runs}, diagnosis);
+  diagnosis.next = next_experiments(experiment, diagnosis.explanations);
+  diagnosis.verdict = verdict_of(diagnosis);
+  return diagnosis;
+}
+
+}  // namespace pendular::diagnosis

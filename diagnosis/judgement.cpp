@@ -1,0 +1,261 @@
+#include "diagnosis/judgement.h"
+
+#include <fmt/format.h>
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/random.h"
+#include "effects/list.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr int kToys = 4000;
+
+Eigen::MatrixXd whole_covariance(const Gap& gap) {
+  return gap.covariance + gap.believed * gap.believed.transpose();
+}
+
+const Signature* signature_of(const Problem& problem, const std::string& id) {
+  for (const auto& signature : problem.signatures)
+    if (signature.id == id) return &signature;
+  return nullptr;
+}
+
+/// What magnitudes leave of the gap.
+Eigen::VectorXd left_by(const Problem& problem, const Changes& changes) {
+  Eigen::VectorXd left = problem.gap.values;
+  for (const auto& [id, theta] : changes)
+    if (const Signature* signature = signature_of(problem, id)) left -= signature->at(theta);
+  return left;
+}
+
+std::vector<std::size_t> all_features(const Problem& problem) {
+  std::vector<std::size_t> all(problem.observed.features.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+/// The feature that a residual leaves farthest off, in words.
+std::string worst_of(const Problem& problem, const Eigen::VectorXd& left) {
+  const Eigen::MatrixXd covariance = whole_covariance(problem.gap);
+  const Eigen::VectorXd z = left.cwiseQuotient(covariance.diagonal().cwiseSqrt());
+  Eigen::Index at = 0;
+  const double most = z.cwiseAbs().maxCoeff(&at);
+  const Feature& feature = problem.observed.features[static_cast<std::size_t>(at)];
+  return fmt::format("{} of {} is {:.1f} sigma off", feature.name, feature.observation, most);
+}
+
+/// Probability of a misfit at least as large by noise alone: that of the multivariate t.
+double goodness_of(double misfit, Eigen::Index features, double freedom) {
+  int larger = 0;
+  for (std::uint64_t toy = 0; toy < kToys; ++toy) {
+    double square = 0.0;
+    for (Eigen::Index k = 0; k < features; ++k)
+      square += std::pow(random_normal(toy, static_cast<std::uint64_t>(k)), 2);
+    // Chi-squared of many degrees of freedom, by Wilson and Hilferty.
+    double scale = 1.0;
+    if (freedom > 0.0) {
+      const double nu = freedom, v = 2.0 / (9.0 * nu);
+      scale = std::max(1e-3, std::pow(1.0 - v + std::sqrt(v) * random_normal(toy, 1u << 20), 3));
+    }
+    larger += square / scale >= misfit;
+  }
+  return static_cast<double>(larger) / kToys;
+}
+
+/// Probability of everything that holds an effect.
+double marginal(const std::vector<Hypothesis>& hypotheses, const std::string& effect) {
+  double sum = 0.0;
+  for (const auto& h : hypotheses) {
+    const auto ids = effects_in(h.id);
+    if (std::find(ids.begin(), ids.end(), effect) != ids.end()) sum += h.probability;
+  }
+  return sum;
+}
+
+/// Why a single effect is out of the question.
+std::string why_excluded(const Problem& problem, const Hypothesis& h, double misfit_of_none, double visible,
+                         const Rules& rules) {
+  const Signature& signature = *signature_of(problem, h.id);
+  if (visible < rules.separable) return "these observations would hardly show it at any usual magnitude";
+  if (misfit_of_none - h.misfit < 1.0) {
+    const std::string both = signature.lowest < 0.0 ? "at either sign it" : "it";
+    return fmt::format("{} moves the features away from what was observed, or not at all; {}", both,
+                       worst_of(problem, problem.gap.values));
+  }
+  const double theta = h.magnitudes.front().mean;
+  return fmt::format("at its best magnitude, {:.3g}, {}", theta,
+                     worst_of(problem, left_by(problem, {{h.id, theta}})));
+}
+
+/// Whether one explanation holds all effects of another: what is added explains nothing that the other does
+/// not.
+bool contains(const std::string& larger, const std::string& smaller) {
+  const auto all = effects_in(larger), some = effects_in(smaller);
+  return !some.empty() && all.size() > some.size() &&
+         std::all_of(some.begin(), some.end(),
+                     [&](const auto& id) { return std::find(all.begin(), all.end(), id) != all.end(); });
+}
+
+/// Explanations, best first, until they hold the wanted probability; pairs that only add to one that is in
+/// count for it. Then single effects that cannot be told from the best one.
+void set_ambiguity(const Problem& problem, const std::vector<Hypothesis>& hypotheses, const Rules& rules,
+                   Diagnosis& diagnosis) {
+  auto& set = diagnosis.ambiguity_set;
+  double held = 0.0;
+  const auto is_in = [&](const std::string& id) {
+    return std::find(set.begin(), set.end(), id) != set.end();
+  };
+  for (const auto& h : hypotheses) {
+    if (held >= rules.in_set) break;
+    const bool covered =
+        std::any_of(set.begin(), set.end(), [&](const auto& id) { return contains(h.id, id); });
+    if (!covered) set.push_back(h.id);
+    held += h.probability;
+  }
+  const Eigen::MatrixXd& separation = diagnosis.separation;
+  for (std::size_t b = 0; b < problem.signatures.size(); ++b) {
+    const std::string& id = problem.signatures[b].id;
+    const auto h =
+        std::find_if(hypotheses.begin(), hypotheses.end(), [&](const auto& x) { return x.id == id; });
+    if (is_in(id) || h->probability < rules.also_in_set) continue;
+    for (std::size_t a = 0; a < problem.signatures.size(); ++a)
+      if (problem.signatures[a].id == set.front() &&
+          separation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) < rules.separable) {
+        set.push_back(id);
+        break;
+      }
+  }
+  for (const auto& h : hypotheses)
+    if (is_in(h.id) ||
+        std::any_of(set.begin(), set.end(), [&](const auto& id) { return contains(h.id, id); }))
+      diagnosis.set_probability += h.probability;
+}
+
+void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hypotheses, const Rules& rules,
+                      const BankPlan& plan, Diagnosis& diagnosis) {
+  double misfit_of_none = 0.0;
+  for (const auto& h : hypotheses)
+    if (h.id == "none") misfit_of_none = h.misfit;
+  const double features = static_cast<double>(problem.observed.features.size());
+  for (const auto& h : hypotheses) {
+    Explanation e{h.id, h.probability, h.magnitudes, {}, h.misfit / features};
+    const auto ids = effects_in(h.id);
+    for (const auto& id : ids) e.units.push_back(effects::find_effect(id, "diagnosis").unit);
+    if (ids.size() == 1 && marginal(hypotheses, h.id) < rules.excluded) {
+      const auto row =
+          std::find(diagnosis.effects.begin(), diagnosis.effects.end(), h.id) - diagnosis.effects.begin();
+      const double visible = diagnosis.separation(row, diagnosis.separation.cols() - 1);
+      e.reason = why_excluded(problem, h, misfit_of_none, visible, rules);
+      e.excluded = visible >= rules.separable;
+    }
+    diagnosis.explanations.push_back(std::move(e));
+  }
+  for (const auto& [id, why] : plan.absent) {
+    Explanation e{id, 0.0, {Magnitude{}}, {effects::find_effect(id, "diagnosis").unit}, 0.0, true, why};
+    diagnosis.explanations.push_back(std::move(e));
+  }
+}
+
+void set_groups(const Problem& problem, const Experiment& experiment, Diagnosis& diagnosis) {
+  std::vector<std::string> singles;
+  for (const auto& id : diagnosis.ambiguity_set)
+    for (const auto& effect : effects_in(id))
+      if (std::find(singles.begin(), singles.end(), effect) == singles.end()) singles.push_back(effect);
+  for (const auto& effect : singles)
+    for (std::size_t index = 0; index < experiment.observations.size(); ++index) {
+      std::vector<std::size_t> features;
+      for (std::size_t f = 0; f < problem.observed.features.size(); ++f)
+        if (problem.observed.observation[f] == index) features.push_back(f);
+      if (features.empty()) continue;
+      const Signature signature = part_of({*signature_of(problem, effect)}, features).front();
+      const auto found = weigh(part_of(problem.gap, features), {signature});
+      for (const auto& h : found)
+        if (h.id == effect)
+          diagnosis.groups.push_back({effect, experiment.observations[index].name, h.magnitudes.front()});
+    }
+}
+
+/// Posterior of the believed inputs once the best explanation is taken off the gap.
+void set_pulls(const Problem& problem, const Changes& best, const Experiment& experiment,
+               Diagnosis& diagnosis) {
+  const Gap& gap = problem.gap;
+  const Eigen::MatrixXd covariance = whole_covariance(gap);
+  const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+  const Eigen::VectorXd pull = gap.believed.transpose() * factor.solve(left_by(problem, best));
+  const Eigen::MatrixXd known = gap.believed.transpose() * factor.solve(gap.believed);
+  const Eigen::VectorXd noise = gap.covariance.diagonal().cwiseSqrt();
+  const auto sds = floating_inputs(experiment);
+  for (std::size_t c = 0; c < problem.inputs.size(); ++c) {
+    const auto at = static_cast<Eigen::Index>(c);
+    const auto stated = sds.find(problem.inputs[c]);
+    Pull one{problem.inputs[c], stated == sds.end() ? 0.0 : stated->second, pull[at],
+             std::sqrt(std::max(0.0, 1.0 - known(at, at)))};
+    one.impact =
+        gap.believed.col(at).cwiseQuotient(noise).norm() / std::sqrt(static_cast<double>(noise.size()));
+    diagnosis.pulls.push_back(one);
+  }
+}
+
+void set_signatures(const Problem& problem, Diagnosis& diagnosis) {
+  const Eigen::VectorXd noise = whole_covariance(problem.gap).diagonal().cwiseSqrt();
+  diagnosis.signatures = Eigen::MatrixXd(static_cast<Eigen::Index>(problem.signatures.size()), noise.size());
+  for (std::size_t e = 0; e < problem.signatures.size(); ++e) {
+    const Signature& signature = problem.signatures[e];
+    diagnosis.effects.push_back(signature.id);
+    diagnosis.signatures.row(static_cast<Eigen::Index>(e)) =
+        signature.at(signature.scale).cwiseQuotient(noise).transpose();
+  }
+  diagnosis.separation = isolability(problem.gap, problem.signatures);
+}
+
+}  // namespace
+
+std::vector<std::string> effects_in(const std::string& id) {
+  if (id == "none" || id == "unknown") return {};
+  const auto plus = id.find('+');
+  if (plus == std::string::npos) return {id};
+  return {id.substr(0, plus), id.substr(plus + 1)};
+}
+
+Changes fitted_changes(const Problem& problem, const std::vector<std::string>& ids,
+                       const std::vector<std::size_t>& features) {
+  std::vector<Signature> signatures;
+  for (const auto& id : ids) signatures.push_back(*signature_of(problem, id));
+  if (signatures.empty()) return {};
+  std::string name = ids.front();
+  for (std::size_t k = 1; k < ids.size(); ++k) name += "+" + ids[k];
+  Changes changes;
+  for (const auto& h : weigh(part_of(problem.gap, features), part_of(signatures, features))) {
+    if (h.id != name) continue;
+    for (std::size_t k = 0; k < ids.size(); ++k) changes[ids[k]] = h.magnitudes[k].mean;
+  }
+  return changes;
+}
+
+void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, const Experiment& experiment,
+           Diagnosis& diagnosis) {
+  std::vector<double> simulated;
+  for (std::size_t f = 0; f < problem.observed.features.size(); ++f) {
+    const double value = problem.simulated[static_cast<Eigen::Index>(f)];
+    simulated.push_back(problem.observed.features[f].logarithm ? std::exp(value) : value);
+  }
+  diagnosis.gap = gap_table(problem.observed.features, simulated, problem.gap);
+  diagnosis.noise = problem.noise;
+  set_signatures(problem, diagnosis);
+  const auto hypotheses = weigh(problem.gap, problem.signatures, rules.priors);
+  set_explanations(problem, hypotheses, rules, plan, diagnosis);
+  set_ambiguity(problem, hypotheses, rules, diagnosis);
+  const Hypothesis& best = hypotheses.front();
+  diagnosis.goodness = goodness_of(best.misfit, static_cast<Eigen::Index>(problem.observed.features.size()),
+                                   problem.gap.freedom);
+  set_groups(problem, experiment, diagnosis);
+  set_pulls(problem, fitted_changes(problem, effects_in(best.id), all_features(problem)), experiment,
+            diagnosis);
+}
+
+}  // namespace pendular::diagnosis

@@ -1,0 +1,233 @@
+#include "diagnosis/shrinkage.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/random.h"
+#include "diagnosis/specimens.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr int kFresh[] = {kFirstFresh, kFirstFresh + 1};
+constexpr int kDraws = 1000;
+constexpr const char* kModulus = "bridges.youngs_modulus_pa";
+
+using Indices = std::vector<std::size_t>;
+
+Indices all_features(const Problem& problem) {
+  Indices all(problem.observed.features.size());
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
+  return all;
+}
+
+/// √max(0, d²/p − noise): `noise` is what noise alone makes of d²/p.
+double excess_of(const Eigen::LLT<Eigen::MatrixXd>& factor, const Eigen::VectorXd& values, double noise) {
+  const double squared = values.dot(factor.solve(values));
+  return std::sqrt(std::max(0.0, squared / static_cast<double>(values.size()) - noise));
+}
+
+/// One way of repairing the simulation: how magnitudes follow from some features.
+struct Model {
+  std::string name;
+  std::function<Changes(const Indices&)> fit;
+};
+
+/// Only the polymer's modulus, by generalised least squares on its logarithm, unbounded.
+Changes retuned_modulus(const RepairShop& shop, const Indices& features) {
+  const Problem& problem = shop.problem;
+  const auto found = std::find(problem.inputs.begin(), problem.inputs.end(), kModulus);
+  if (found == problem.inputs.end()) return {};
+  const auto column = static_cast<Eigen::Index>(found - problem.inputs.begin());
+  const double relative =
+      floating_inputs(shop.experiment).at(kModulus) / sample_key(shop.experiment.sample, kModulus);
+  Gap gap = part_of(problem.gap, features);
+  const Eigen::VectorXd response = gap.believed.col(column) / relative;  // of a change of log E_p by one
+  gap.believed.col(column).setZero();
+  const Eigen::LLT<Eigen::MatrixXd> factor(gap.covariance + gap.believed * gap.believed.transpose());
+  const double weight = response.dot(factor.solve(response));
+  if (!(weight > 0.0)) return {};
+  const double change = std::clamp(response.dot(factor.solve(gap.values)) / weight, -2.5, 2.5);
+  return {{kModulus, std::expm1(change) / relative}};
+}
+
+/// Which tests to withhold together: the features of each condition, or of each observation where there is
+/// one condition only; what no test shows is never withheld.
+std::vector<Indices> withheld_parts(const RepairShop& shop) {
+  const Problem& problem = shop.problem;
+  std::set<std::size_t> tested;
+  for (const auto& condition : shop.plan.conditions)
+    tested.insert(condition.observations.begin(), condition.observations.end());
+  std::vector<std::set<std::size_t>> groups;
+  for (const auto& condition : shop.plan.conditions)
+    groups.emplace_back(condition.observations.begin(), condition.observations.end());
+  std::sort(groups.begin(), groups.end());
+  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+  if (groups.size() == 1) {
+    groups.clear();
+    for (const std::size_t index : tested) groups.push_back({index});
+  }
+  std::vector<Indices> parts;
+  for (const auto& group : groups) {
+    Indices part;
+    for (std::size_t f = 0; f < problem.observed.features.size(); ++f)
+      if (group.contains(problem.observed.observation[f])) part.push_back(f);
+    if (!part.empty() && part.size() < problem.observed.features.size()) parts.push_back(part);
+  }
+  return parts;
+}
+
+/// Runs models on fresh members and compares.
+class Bench {
+ public:
+  Bench(const RepairShop& shop, Diagnosis& diagnosis) : shop_(shop), diagnosis_(diagnosis) {}
+
+  /// The gap that stays of some features with these changes: mean over the fresh members; the old one where
+  /// nothing is shown. In the place of the others stands what it was.
+  Eigen::VectorXd gap_with(const Changes& changes, const std::string& name, const Indices& features,
+                           bool overlay) {
+    const auto needed = conditions_for(features);
+    std::vector<sweep::RunRequest> requests;
+    for (const int member : kFresh)
+      for (const std::size_t c : needed)
+        requests.push_back(
+            request_of(shop_.experiment, shop_.plan.conditions[c], member, changes, shop_.beads_folder));
+    const auto outcomes = shop_.make_runs(name, requests);
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(shop_.problem.gap.values.size()), count = sum;
+    auto outcome = outcomes.begin();
+    for (std::size_t m = 0; m < std::size(kFresh); ++m) {
+      SimulatedTests tests(shop_.plan.conditions.size());
+      for (const std::size_t c : needed)
+        tests[c] = read_outcome(*outcome++, c, name + ": " + purpose_of(changes), diagnosis_.ledger);
+      const Eigen::VectorXd values =
+          simulated_features(shop_.experiment, shop_.plan.conditions, shop_.problem.observed, tests, changes);
+      for (Eigen::Index f = 0; f < values.size(); ++f)
+        if (std::isfinite(values[f])) sum[f] += values[f], count[f] += 1.0;
+      if (overlay) add_overlays(tests, changes);
+    }
+    Eigen::VectorXd gap = shop_.problem.gap.values;
+    const Eigen::VectorXd observed = shop_.problem.observed.values();
+    for (Eigen::Index f = 0; f < gap.size(); ++f)
+      if (count[f] > 0.0) gap[f] = observed[f] - sum[f] / count[f];
+    return gap;
+  }
+
+  /// The withheld features of all parts, each as the model that has not seen its part leaves it.
+  Eigen::VectorXd withheld_gap(const Model& model, const std::vector<Indices>& parts,
+                               const Indices& withheld) {
+    Eigen::VectorXd gap = shop_.problem.gap.values;
+    for (const auto& part : parts) {
+      Indices others;
+      for (const std::size_t f : all_features(shop_.problem))
+        if (std::find(part.begin(), part.end(), f) == part.end()) others.push_back(f);
+      const Eigen::VectorXd left = gap_with(model.fit(others), model.name + " on withheld data", part, false);
+      for (const std::size_t f : part) gap[static_cast<Eigen::Index>(f)] = left[static_cast<Eigen::Index>(f)];
+    }
+    return gap(std::vector<Eigen::Index>(withheld.begin(), withheld.end()));
+  }
+
+ private:
+  /// Tests that features are read from, those of single bridges aside.
+  std::vector<std::size_t> conditions_for(const Indices& features) const {
+    std::vector<std::size_t> needed;
+    for (std::size_t c = 0; c < shop_.plan.conditions.size(); ++c) {
+      const auto& answers = shop_.plan.conditions[c].observations;
+      if (std::any_of(features.begin(), features.end(), [&](std::size_t f) {
+            return std::find(answers.begin(), answers.end(), shop_.problem.observed.observation[f]) !=
+                   answers.end();
+          }))
+        needed.push_back(c);
+    }
+    return needed;
+  }
+
+  void add_overlays(const SimulatedTests& tests, const Changes& changes) {
+    for (std::size_t index = 0; index < diagnosis_.overlays.size(); ++index)
+      if (auto columns = simulated_columns(shop_.experiment, shop_.plan.conditions, index, tests, changes))
+        diagnosis_.overlays[index].repaired.push_back(std::move(*columns));
+  }
+
+  const RepairShop& shop_;
+  Diagnosis& diagnosis_;
+};
+
+/// The most probable single effect that is neither in the ambiguity set nor part of what is.
+std::string wrong_effect_of(const Diagnosis& diagnosis) {
+  std::set<std::string> named;
+  for (const auto& id : diagnosis.ambiguity_set)
+    for (const auto& effect : effects_in(id)) named.insert(effect);
+  for (const auto& e : diagnosis.explanations)
+    if (effects_in(e.id).size() == 1 && !named.contains(e.id) && !e.magnitudes.empty() && e.misfit > 0.0)
+      return e.id;
+  return "";
+}
+
+}  // namespace
+
+Shrinkage shrinkage_of(const Gap& before, const Eigen::VectorXd& after) {
+  const Eigen::MatrixXd covariance = before.covariance + before.believed * before.believed.transpose();
+  const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+  Shrinkage found;
+  found.before = excess_of(factor, before.values, 1.0);
+  found.after = excess_of(factor, after, 1.0);
+  const auto fraction = [](double was, double is) { return was > 0.0 ? 1.0 - is / was : 0.0; };
+  found.fraction = fraction(found.before, found.after);
+  if (found.before <= 0.0) return found;
+  std::vector<double> drawn;
+  const Eigen::MatrixXd lower = factor.matrixL();
+  for (std::uint64_t draw = 0; draw < kDraws; ++draw) {
+    Eigen::VectorXd noise(after.size());
+    for (Eigen::Index k = 0; k < noise.size(); ++k)
+      noise[k] = random_normal(draw, static_cast<std::uint64_t>(k));
+    noise = lower * noise;
+    const double was = excess_of(factor, before.values + noise, 2.0);  // noise counts twice: seen and drawn
+    drawn.push_back(fraction(was, excess_of(factor, after + noise, 2.0)));
+  }
+  std::sort(drawn.begin(), drawn.end());
+  found.interval_90 = {drawn[kDraws / 20], drawn[kDraws - 1 - kDraws / 20]};
+  return found;
+}
+
+void measure_shrinkage(const RepairShop& shop, Diagnosis& diagnosis) {
+  const Problem& problem = shop.problem;
+  const double excess_before = excess(problem.gap);
+  diagnosis.fitted = {excess_before, excess_before, 0.0, {0.0, 0.0}, {}};
+  diagnosis.withheld = diagnosis.fitted;
+  const auto ids = effects_in(diagnosis.explanations.front().id);
+  if (ids.empty() || excess_before <= 0.0) return;
+
+  Bench bench(shop, diagnosis);
+  const Indices all = all_features(problem);
+  const auto effect_model = [&](const std::string& name, const std::vector<std::string>& effects) {
+    return Model{name, [&problem, effects](const Indices& features) {
+                   return fitted_changes(problem, effects, features);
+                 }};
+  };
+  const Model best = effect_model("repaired", ids);
+  diagnosis.fitted = shrinkage_of(problem.gap, bench.gap_with(best.fit(all), best.name, all, true));
+  for (const auto& observation : shop.experiment.observations)
+    diagnosis.fitted.observations.push_back(observation.name);
+
+  const auto parts = withheld_parts(shop);
+  Indices withheld;
+  for (const auto& part : parts) withheld.insert(withheld.end(), part.begin(), part.end());
+  if (withheld.empty()) return;
+  const Gap gap = part_of(problem.gap, withheld);
+  diagnosis.withheld = shrinkage_of(gap, bench.withheld_gap(best, parts, withheld));
+  std::set<std::size_t> names;
+  for (const std::size_t f : withheld) names.insert(problem.observed.observation[f]);
+  for (const std::size_t index : names)
+    diagnosis.withheld.observations.push_back(shop.experiment.observations[index].name);
+  const Model retuned{"modulus retuned",
+                      [&](const Indices& features) { return retuned_modulus(shop, features); }};
+  diagnosis.retuned = shrinkage_of(gap, bench.withheld_gap(retuned, parts, withheld)).fraction;
+  diagnosis.wrong_effect = wrong_effect_of(diagnosis);
+  if (diagnosis.wrong_effect.empty()) return;
+  const Model wrong = effect_model("wrong effect", {diagnosis.wrong_effect});
+  diagnosis.wrong = shrinkage_of(gap, bench.withheld_gap(wrong, parts, withheld)).fraction;
+}
+
+}  // namespace pendular::diagnosis

@@ -1,0 +1,83 @@
+#include "diagnosis/specimens.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "packing/bridges.h"
+#include "packing/statistics.h"
+#include "packing/tables.h"
+#include "packing/vtp.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr double kLargestMismatch = 1.25;  // of diameters and of the specimen's size
+
+/// Beads of another specimen, or in another unit, are not simulated as if they were this one's.
+void check_beads_of(const Condition& condition, const std::vector<Bead>& beads) {
+  const Sample& sample = condition.sample;
+  const auto check = [&](const char* what, double found, double expected) {
+    if (found > kLargestMismatch * expected || found < expected / kLargestMismatch)
+      bad_input(
+          "{}: found {} of {:.4g} um, expected about {:.4g} um as the sample says (beads of another "
+          "specimen?)",
+          condition.beads.string(), what, 1e6 * found, 1e6 * expected);
+  };
+  const Specimen held = specimen_enclosing(beads);
+  check("a mean diameter", mean_diameter(beads), sample.beads.diameter);
+  check("a specimen diameter", held.diameter, sample.specimen.diameter);
+  check("a specimen height", held.height, sample.specimen.height);
+}
+
+/// Another measurement of the same beads.
+void move_beads(std::vector<Bead>& beads, std::uint64_t seed) {
+  for (std::size_t k = 0; k < beads.size(); ++k) {
+    for (int axis = 0; axis < 3; ++axis)
+      beads[k].centre[axis] +=
+          beads[k].sigma_centre * random_normal(seed, 4 * k + static_cast<std::size_t>(axis));
+    beads[k].diameter += beads[k].sigma_diameter * random_normal(seed, 4 * k + 3);
+  }
+}
+
+Packing measured_packing(const Condition& condition, int member) {
+  const Sample& sample = condition.sample;
+  Packing packing;
+  packing.beads = read_beads(condition.beads);
+  check_beads_of(condition, packing.beads);
+  if (member > 1 && member < kFirstFresh) move_beads(packing.beads, static_cast<std::uint64_t>(member));
+  packing.specimen = specimen_around(packing.beads, sample.specimen.diameter, sample.specimen.height);
+  flag_boundary(packing);
+  packing.bridges = candidate_bridges(packing.beads, sample.bridges.cutoff * sample.beads.diameter);
+  packing.provenance = {program_version(),
+                        fmt::format("pendular diagnose: member {}", member),
+                        static_cast<std::uint64_t>(member),
+                        {}};
+  return packing;
+}
+
+}  // namespace
+
+sweep::PackingSource beads_of_member(const Condition& condition, int member, const fs::path& folder) {
+  if (condition.beads.empty()) return sweep::generated_packing(static_cast<std::uint64_t>(member));
+  const Packing packing = measured_packing(condition, member);
+  const auto& s = condition.sample;
+  const std::string name =
+      sha256(fmt::format("{} {} {} {} {} {}", sha256_of(condition.beads), member, s.specimen.diameter,
+                         s.specimen.height, s.bridges.cutoff, s.beads.diameter));
+  const fs::path path = folder / (name.substr(0, 16) + ".vtp");
+  make_folder(folder);
+  if (!fs::exists(path)) write_packing(path, packing);
+  return sweep::packing_file(path);
+}
+
+double beads_in(const Condition& condition) {
+  if (!condition.beads.empty()) return static_cast<double>(read_beads(condition.beads).size());
+  const auto& s = condition.sample;
+  const double cylinder = 0.25 * M_PI * s.specimen.diameter * s.specimen.diameter * s.specimen.height;
+  return s.specimen.volume_fraction * cylinder / (M_PI / 6.0 * std::pow(s.beads.diameter, 3));
+}
+
+}  // namespace pendular::diagnosis
