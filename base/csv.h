@@ -36,4 +36,9 @@ class CsvTable {
 CsvTable read_csv(const fs::path& path, const std::vector<std::string>& required,
                   const std::vector<std::string>& optional = {});
 
+/// A cell of a table that is written: a number as short as it reads back the same, empty where it is not
+/// finite; a text quoted where it must be, its line breaks made spaces.
+std::string csv_cell(double value);
+std::string csv_cell(const std::string& text);
+
 }  // namespace pendular

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/csv.h"
 #include "base/error.h"
 
 namespace pendular::sweep {
@@ -50,20 +51,6 @@ Values values_of(const RunOutcome& outcome) {
   return values;
 }
 
-std::string cell(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : "";
-}
-
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r#") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return quoted + '"';
-}
-
 /// "point,KEY,KEY"
 std::string point_header(const Plan& plan) {
   std::string text = "point";
@@ -73,7 +60,7 @@ std::string point_header(const Plan& plan) {
 
 std::string point_cells(const Plan::Run& run) {
   std::string text = std::to_string(run.point);
-  for (const auto& value : run.values) text += ',' + cell(to_string(value));
+  for (const auto& value : run.values) text += ',' + csv_cell(to_string(value));
   return text;
 }
 
@@ -85,8 +72,8 @@ std::string results_csv(const Plan& plan, std::span<const RunOutcome> outcomes,
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     const auto& run = plan.runs[k];
     text += fmt::format("{},{},{},{},{},{}", point_cells(run), run.realisation, run.seed, outcomes[k].hash,
-                        to_string(outcomes[k].status), cell(outcomes[k].message));
-    for (const double value : values[k]) text += ',' + cell(value);
+                        to_string(outcomes[k].status), csv_cell(outcomes[k].message));
+    for (const double value : values[k]) text += ',' + csv_cell(value);
     text += '\n';
   }
   return text;
@@ -101,7 +88,7 @@ std::string spread_cells(const std::vector<double>& values) {
   for (const double v : values)
     if (std::isfinite(v)) square += (v - mean) * (v - mean);
   const double sd = n > 1.0 ? std::sqrt(square / (n - 1.0)) : kNone;
-  return fmt::format("{},{},{},{}", cell(mean), cell(sd), cell(sd / std::sqrt(n)), n);
+  return fmt::format("{},{},{},{}", csv_cell(mean), csv_cell(sd), csv_cell(sd / std::sqrt(n)), n);
 }
 
 std::string summary_csv(const Plan& plan, std::span<const RunOutcome> outcomes,

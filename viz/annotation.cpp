@@ -12,8 +12,6 @@
 #include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <array>
-
 #include "viz/ticks.h"
 
 namespace pendular::viz {
@@ -21,16 +19,9 @@ namespace {
 
 constexpr double kInk = 0.05;
 
-struct Box {
-  double left, bottom, right, top;
-};
-constexpr Box kBar{0.845, 0.24, 0.875, 0.76};
+}  // namespace
 
-using Rgb = std::array<unsigned char, 3>;
-
-/// Coloured rectangles in shares of the picture.
-void add_boxes(vtkRenderer* renderer, const std::vector<Box>& boxes,
-               const std::vector<Rgb>& colours_of_boxes) {
+void add_boxes(vtkRenderer* renderer, const std::vector<Box>& boxes, const std::vector<Rgb>& colours) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> quads;
   vtkNew<vtkUnsignedCharArray> rgb;
@@ -42,7 +33,7 @@ void add_boxes(vtkRenderer* renderer, const std::vector<Box>& boxes,
     quads->InsertCellPoint(points->InsertNextPoint(b.right, b.bottom, 0.0));
     quads->InsertCellPoint(points->InsertNextPoint(b.right, b.top, 0.0));
     quads->InsertCellPoint(points->InsertNextPoint(b.left, b.top, 0.0));
-    rgb->InsertNextTypedTuple(colours_of_boxes[k].data());
+    rgb->InsertNextTypedTuple(colours[k].data());
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
@@ -58,8 +49,6 @@ void add_boxes(vtkRenderer* renderer, const std::vector<Box>& boxes,
   renderer->AddViewProp(actor);
 }
 
-}  // namespace
-
 void add_text(vtkRenderer* renderer, const Canvas& canvas, const std::string& text, double x, double y,
               const TextStyle& style) {
   vtkNew<vtkTextActor> actor;
@@ -68,36 +57,39 @@ void add_text(vtkRenderer* renderer, const Canvas& canvas, const std::string& te
   property->SetFontFamilyToArial();
   property->SetFontSize(canvas.scaled(style.size));
   property->SetBold(style.bold);
-  property->SetColor(kInk, kInk, kInk);
+  const double ink = style.white ? 1.0 : kInk;
+  property->SetColor(ink, ink, ink);
   property->SetVerticalJustificationToCentered();
   property->SetOrientation(style.angle);
   if (style.align == Align::centre) property->SetJustificationToCentered();
+  if (style.align == Align::right) property->SetJustificationToRight();
   actor->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
   actor->SetPosition(x, y);
   renderer->AddViewProp(actor);
 }
 
 void add_colour_bar(vtkRenderer* renderer, const Canvas& canvas, const std::string& title, Range range,
-                    vtkScalarsToColors* map) {
+                    vtkScalarsToColors* map, const Box& bar) {
   constexpr int kSteps = 256;
-  const double height = kBar.top - kBar.bottom, line = 0.0025;
-  std::vector<Box> boxes = {{kBar.left - 0.001, kBar.bottom - 0.0015, kBar.right + 0.001, kBar.top + 0.0015}};
+  const double height = bar.top - bar.bottom, line = 0.0025;
+  std::vector<Box> boxes = {{bar.left - 0.001, bar.bottom - 0.0015, bar.right + 0.001, bar.top + 0.0015}};
   std::vector<Rgb> rgb = {{13, 13, 13}};
   for (int k = 0; k < kSteps; ++k) {
     const unsigned char* c = map->MapValue(range.low + (range.high - range.low) * (k + 0.5) / kSteps);
     boxes.push_back(
-        {kBar.left, kBar.bottom + height * k / kSteps, kBar.right, kBar.bottom + height * (k + 1) / kSteps});
+        {bar.left, bar.bottom + height * k / kSteps, bar.right, bar.bottom + height * (k + 1) / kSteps});
     rgb.push_back({c[0], c[1], c[2]});
   }
   const Ticks ticks = round_ticks(range.low, range.high, 5);
   for (std::size_t k = 0; k < ticks.values.size(); ++k) {
-    const double y = kBar.bottom + height * (ticks.values[k] - range.low) / (range.high - range.low);
-    boxes.push_back({kBar.right, y - 0.5 * line, kBar.right + 0.007, y + 0.5 * line});
+    const double y = bar.bottom + height * (ticks.values[k] - range.low) / (range.high - range.low);
+    boxes.push_back({bar.right, y - 0.5 * line, bar.right + 0.007, y + 0.5 * line});
     rgb.push_back({13, 13, 13});
-    add_text(renderer, canvas, ticks.labels[k], kBar.right + 0.013, y, {.size = 32});
+    add_text(renderer, canvas, ticks.labels[k], bar.right + 0.013, y, {.size = 32});
   }
   add_boxes(renderer, boxes, rgb);
-  add_text(renderer, canvas, title, 0.885, kBar.top + 0.05, {.size = 32, .align = Align::centre});
+  add_text(renderer, canvas, title, 0.5 * (bar.left + bar.right) + 0.025, bar.top + 0.05,
+           {.size = 32, .align = Align::centre});
 }
 
 void add_length_scale(vtkRenderer* renderer, const Canvas& canvas, const std::string& text, double share) {

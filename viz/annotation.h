@@ -4,6 +4,7 @@
 
 #include <vtkRenderer.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@
 
 namespace pendular::viz {
 
-enum class Align { left, centre };
+enum class Align { left, centre, right };
 
 /// Positions are shares of the picture's width and height from the lower left. `size` in pixels of a picture
 /// 1200 pixels high.
@@ -21,13 +22,24 @@ struct TextStyle {
   bool bold = false;
   Align align = Align::left;
   double angle = 0.0;  ///< anticlockwise, degrees
+  bool white = false;  ///< on dark ground
 };
 void add_text(vtkRenderer* renderer, const Canvas& canvas, const std::string& text, double x, double y,
               const TextStyle& style = {});
 
-/// A vertical bar at the right of the picture, with its quantity and unit above and round labels beside it.
+/// Coloured rectangles in shares of the picture.
+struct Box {
+  double left, bottom, right, top;
+};
+using Rgb = std::array<unsigned char, 3>;
+void add_boxes(vtkRenderer* renderer, const std::vector<Box>& boxes, const std::vector<Rgb>& colours);
+
+/// Where a colour bar stands by itself: at the right of the picture.
+inline constexpr Box kColourBar{0.845, 0.24, 0.875, 0.76};
+
+/// A vertical bar, with its quantity and unit above and round labels beside it.
 void add_colour_bar(vtkRenderer* renderer, const Canvas& canvas, const std::string& title, Range range,
-                    vtkScalarsToColors* map);
+                    vtkScalarsToColors* map, const Box& bar = kColourBar);
 
 /// A horizontal bar `share` of the picture's width long, with its length in words above, at the lower right.
 void add_length_scale(vtkRenderer* renderer, const Canvas& canvas, const std::string& text, double share);

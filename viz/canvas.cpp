@@ -51,14 +51,15 @@ SilentStandardError::~SilentStandardError() {
   ::close(kept_);
 }
 
-Canvas::Canvas(const Display&, PictureSize size) : size_(size) {
+Canvas::Canvas(const Display&, PictureSize size, double zoom)
+    : size_(size), zoom_(zoom > 0.0 ? zoom : size.height / 1200.0) {
   window_->SetOffScreenRendering(1);
   window_->SetMultiSamples(0);
   window_->SetSize(size.width * kOversample, size.height * kOversample);
 }
 
 int Canvas::scaled(double length) const {
-  return static_cast<int>(std::lround(length * kOversample * size_.height / 1200.0));
+  return static_cast<int>(std::lround(length * kOversample * zoom_));
 }
 
 Image Canvas::draw() {

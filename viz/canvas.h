@@ -15,11 +15,12 @@ namespace pendular::viz {
 /// line widths) go through scaled().
 class Canvas {
  public:
-  Canvas(const Display& display, PictureSize size);
+  /// `zoom`: the picture's pixels per unit of scaled(); 0: its height over 1200.
+  Canvas(const Display& display, PictureSize size, double zoom = 0.0);
 
   vtkRenderWindow* window() { return window_; }
 
-  /// Window pixels for a length that is `length` pixels in a picture 1200 pixels high.
+  /// Window pixels for a length that is `length` pixels in a picture 1200 pixels high (of zoom 1).
   int scaled(double length) const;
 
   /// Draws and reads back. ComputationFailed where OpenGL draws nothing.
@@ -27,6 +28,7 @@ class Canvas {
 
  private:
   PictureSize size_;
+  double zoom_;
   vtkNew<vtkRenderWindow> window_;
 };
 

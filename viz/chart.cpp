@@ -6,6 +6,7 @@
 #include <vtkContextScene.h>
 #include <vtkDoubleArray.h>
 #include <vtkPen.h>
+#include <vtkPlotArea.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
@@ -14,12 +15,11 @@
 
 #include <cmath>
 
-#include "viz/annotation.h"
 #include "viz/ticks.h"
 
 namespace pendular::viz {
 
-ChartSheet::ChartSheet(const Display& display, PictureSize size) : canvas_(display, size) {
+ChartSheet::ChartSheet(const Display& display, PictureSize size, double zoom) : canvas_(display, size, zoom) {
   renderer_->SetBackground(1.0, 1.0, 1.0);
   canvas_.window()->AddRenderer(renderer_);
   renderer_->AddActor(actor_);
@@ -54,6 +54,10 @@ void ChartSheet::write_upright(const std::string& words, double x, double y) {
   add_text(renderer_, canvas_, words, x, y, {.size = 36, .align = Align::centre, .angle = 90});
 }
 
+void ChartSheet::write(const std::string& words, double x, double y, const TextStyle& style) {
+  add_text(renderer_, canvas_, words, x, y, style);
+}
+
 vtkPlot* add_plot(vtkChartXY* chart, int kind, const Points& points, const std::string& label, Colour colour,
                   double width) {
   vtkNew<vtkDoubleArray> x, y;
@@ -72,6 +76,28 @@ vtkPlot* add_plot(vtkChartXY* chart, int kind, const Points& points, const std::
   plot->SetColor(colour.r, colour.g, colour.b, 255);
   plot->SetWidth(static_cast<float>(width));
   return plot;
+}
+
+void add_fill(vtkChartXY* chart, const std::vector<double>& x, const std::vector<double>& low,
+              const std::vector<double>& high, const std::string& label, Colour colour,
+              unsigned char opacity) {
+  vtkNew<vtkTable> table;
+  const auto add = [&](const char* name, const std::vector<double>& values) {
+    vtkNew<vtkDoubleArray> column;
+    column->SetName(name);
+    for (const double v : values) column->InsertNextValue(v);
+    // vtkPlotArea draws nothing of a strip between two places only.
+    if (values.size() == 2) column->InsertNextValue(values.back());
+    table->AddColumn(column);
+  };
+  add("x", x), add("low", low), add("high", high);
+  auto* area = vtkPlotArea::SafeDownCast(chart->AddPlot(vtkChart::AREA));
+  area->SetInputData(table);
+  area->SetInputArray(0, "x");
+  area->SetInputArray(1, "low");
+  area->SetInputArray(2, "high");
+  area->SetLabel(label.empty() ? label : " " + label);
+  area->SetColor(colour.r, colour.g, colour.b, opacity);
 }
 
 namespace {
@@ -99,8 +125,8 @@ void fix_axis(vtkAxis* axis, double low, double high, const Ticks& ticks, const 
 
 }  // namespace
 
-void set_axis(vtkAxis* axis, double low, double high, const Canvas& canvas, double scale) {
-  Ticks ticks = round_ticks(low * scale, high * scale, 6);
+void set_axis(vtkAxis* axis, double low, double high, const Canvas& canvas, double scale, int wanted) {
+  Ticks ticks = round_ticks(low * scale, high * scale, wanted);
   for (double& value : ticks.values) value /= scale;
   fix_axis(axis, low, high, ticks, canvas);
 }
@@ -112,6 +138,10 @@ void set_log_axis(vtkAxis* axis, double low, double high, const Canvas& canvas) 
     ticks.labels.push_back(fmt::format("{:g}", std::pow(10.0, power)));
   }
   fix_axis(axis, low, high, ticks, canvas);
+}
+
+void set_bare_axis(vtkAxis* axis, double low, double high, const Canvas& canvas) {
+  fix_axis(axis, low, high, {}, canvas);
 }
 
 }  // namespace pendular::viz

@@ -35,6 +35,8 @@ std::array<double, 3> to_rgb(const Lab& lab) {
 std::vector<Lab> stations(ColourMap map) {
   if (map == ColourMap::rising)
     return {{22, 33, -45}, {39, 5, -38}, {56, -28, -8}, {73, -38, 38}, {90, -8, 78}};
+  if (map == ColourMap::signed_values)
+    return {{38, 12, -48}, {67, -6, -32}, {96, 0, 0}, {67, 36, 30}, {38, 56, 36}};
   return {{88, 0, 4}, {74, 14, 34}, {60, 44, 46}, {46, 58, 48}, {32, 50, 38}};
 }
 

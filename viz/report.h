@@ -19,18 +19,28 @@ struct ReportRow {
   std::string quantity, value, unit;
 };
 
+/// Columns in which every cell starts as a number does are aligned right.
+struct ReportTable {
+  std::string caption;
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;  ///< as many cells as columns
+};
+
 struct ReportSection {
   std::string heading;
   std::string text;  ///< a paragraph; may be empty
   std::vector<ReportRow> rows;
   std::vector<ReportPicture> pictures;
+  std::vector<ReportTable> tables = {};  ///< after the pictures
 };
 
 struct Report {
   std::string title;
-  std::string summary;  ///< one paragraph in words
+  std::string summary;  ///< in words; paragraphs end with line breaks
   std::vector<ReportSection> sections;
-  nlohmann::ordered_json provenance;  ///< shown at the end; null: none
+  nlohmann::ordered_json provenance;       ///< shown at the end; null: none
+  std::vector<std::string> warnings = {};  ///< shown before the summary
+  std::vector<ReportRow> figures = {};     ///< the few that the summary rests on, after it
 };
 
 /// Writes a report as one HTML page that needs nothing else: pictures are embedded, there is no script and no

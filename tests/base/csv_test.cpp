@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "base/error.h"
@@ -54,6 +55,19 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Csv, MissingFile) {
   EXPECT_THROW(read_csv("/nonexistent/t.csv", {"a"}), BadInput);
+}
+
+TEST(Csv, CellsReadBackAsTheyWereWritten) {
+  const ScratchFolder folder;
+  const std::string text = "a \"b\", c # d";
+  write_text(folder / "t.csv", "number,none,text,after\n" + csv_cell(0.1) + ',' + csv_cell(std::nan("")) +
+                                   ',' + csv_cell(text) + ',' + csv_cell("two\nlines") + '\n');
+  const CsvTable table = read_csv(folder / "t.csv", {"number", "none", "text", "after"});
+  ASSERT_EQ(table.rows(), 1u);
+  EXPECT_EQ(table.numbers("number")[0], 0.1);
+  EXPECT_TRUE(std::isnan(table.numbers("none", true)[0]));
+  EXPECT_EQ(table.texts("text")[0], text);
+  EXPECT_EQ(table.texts("after")[0], "two lines");
 }
 
 }  // namespace

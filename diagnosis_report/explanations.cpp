@@ -1,0 +1,60 @@
+#include "diagnosis_report/explanations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "viz/labels.h"
+
+namespace pendular::diagnosis_report {
+namespace {
+
+constexpr double kShownPair = 0.01;  // probability from which a pair is shown by itself
+
+constexpr std::size_t kLongestName = 20;
+
+}  // namespace
+
+bool is_pair(const std::string& id) {
+  return id.find('+') != std::string::npos;
+}
+
+std::vector<std::string> effects_in(const std::string& id) {
+  if (id == "none" || id == "unknown") return {};
+  const std::size_t plus = id.find('+');
+  if (plus == std::string::npos) return {id};
+  return {id.substr(0, plus), id.substr(plus + 1)};
+}
+
+bool in_ambiguity_set(const diagnosis::Diagnosis& diagnosis, const std::string& id) {
+  const auto& set = diagnosis.ambiguity_set;
+  return std::find(set.begin(), set.end(), id) != set.end();
+}
+
+bool is_suspect(const diagnosis::Diagnosis& diagnosis, const std::string& effect) {
+  return std::any_of(diagnosis.ambiguity_set.begin(), diagnosis.ambiguity_set.end(),
+                     [&](const std::string& id) {
+                       const auto effects = effects_in(id);
+                       return std::find(effects.begin(), effects.end(), effect) != effects.end();
+                     });
+}
+
+std::string feature_label(const diagnosis::Feature& feature) {
+  return fmt::format("{}: {}", viz::shortened(feature.observation, kLongestName), feature.name);
+}
+
+Shown shown_of(const diagnosis::Diagnosis& diagnosis) {
+  Shown shown;
+  for (const auto& explanation : diagnosis.explanations) {
+    if (!is_pair(explanation.id) || explanation.probability >= kShownPair ||
+        in_ambiguity_set(diagnosis, explanation.id)) {
+      shown.explanations.push_back(explanation);
+    } else {
+      ++shown.other_pairs;
+      shown.other_probability += explanation.probability;
+    }
+  }
+  return shown;
+}
+
+}  // namespace pendular::diagnosis_report

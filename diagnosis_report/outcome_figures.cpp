@@ -1,0 +1,90 @@
+#include "diagnosis_report/outcome_figures.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <limits>
+
+#include "diagnosis_report/tables.h"
+#include "viz/row_plot.h"
+
+namespace pendular::diagnosis_report {
+namespace {
+
+using diagnosis::Diagnosis;
+using diagnosis::Shrinkage;
+using viz::RowSeries;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// One row of the figure.
+struct Row {
+  std::string name;
+  Shrinkage shrinkage;
+};
+
+/// What a control comes to on the withheld observations; its interval is not known.
+Shrinkage control(const Shrinkage& withheld, double fraction) {
+  return {
+      withheld.before, withheld.before * (1.0 - fraction), fraction, {kNone, kNone}, withheld.observations};
+}
+
+std::vector<Row> rows_of(const Diagnosis& d) {
+  std::vector<Row> rows;
+  if (!d.fitted.observations.empty()) rows.push_back({"fitted", d.fitted});
+  if (d.withheld.observations.empty()) return rows;
+  rows.push_back({"withheld", d.withheld});
+  rows.push_back({"control: only the polymer's modulus retuned", control(d.withheld, d.retuned)});
+  if (!d.wrong_effect.empty())
+    rows.push_back({"control: a wrong effect, " + d.wrong_effect, control(d.withheld, d.wrong)});
+  return rows;
+}
+
+}  // namespace
+
+std::optional<Drawn> shrinkage_figure(const viz::Display& display, const Diagnosis& d) {
+  const auto rows = rows_of(d);
+  if (rows.empty()) return {};
+  viz::RowPlot plot;
+  RowSeries before{"as believed", {}}, after{"with what was added", {}}, closed;
+  closed.look = RowSeries::Look::points;
+  Table table{"shrinkage", {"data", "before", "after", "fraction", "low_90", "high_90", "observations"}, {}};
+  for (const auto& [name, s] : rows) {
+    plot.labels.push_back(name);
+    plot.marked.push_back(name == "withheld");
+    before.values.push_back(s.before);
+    after.values.push_back(s.after);
+    closed.values.push_back(100.0 * s.fraction);
+    closed.intervals.emplace_back(100.0 * s.interval_90.first, 100.0 * s.interval_90.second);
+    table.rows.push_back({name, s.before, s.after, s.fraction, s.interval_90.first, s.interval_90.second,
+                          fmt::format("{}", fmt::join(s.observations, "; "))});
+  }
+  plot.panels = {{"excess gap (noise)", {before, after}},
+                 {"share of the gap closed (%)", {closed}, {100.0}, {}, 0.0, 105.0}};
+  return Drawn{viz::draw_rows(display, plot),
+               "How far the gap shrinks. Left: the gap beyond noise before and after. Right: the share of it "
+               "that is closed, with its 90 % interval. Withheld observations took no part in choosing "
+               "anything; the controls show what closes without the right cause.",
+               table};
+}
+
+std::optional<Drawn> next_figure(const viz::Display& display, const Diagnosis& d) {
+  if (d.next.empty()) return {};
+  viz::RowPlot plot;
+  RowSeries resolved, cost;
+  std::vector<std::string> notes;
+  for (const auto& next : d.next) {
+    plot.labels.push_back(next.observation);
+    resolved.values.push_back(next.expected_probability_resolved);
+    cost.values.push_back(next.cost);
+    notes.push_back(fmt::format("{:.2f}", next.expected_probability_resolved));
+  }
+  plot.panels = {{"expected probability resolved", {resolved}, {}, notes, 0.0, 1.0},
+                 {"cost (compression tests)", {cost}}};
+  return Drawn{viz::draw_rows(display, plot),
+               "What to measure next: the probability expected that one explanation has nine tenths "
+               "afterwards, and what the measurement costs in units of one compression test.",
+               next_table(d)};
+}
+
+}  // namespace pendular::diagnosis_report

@@ -1,0 +1,160 @@
+#include "diagnosis_report/page.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis_report/explanations.h"
+#include "diagnosis_report/tables.h"
+
+namespace pendular::diagnosis_report {
+namespace {
+
+using diagnosis::Diagnosis;
+using diagnosis::Shrinkage;
+
+constexpr std::size_t kLongestLedger = 400;  // rows of the ledger in the page
+
+std::size_t not_made(const Diagnosis& d) {
+  return static_cast<std::size_t>(
+      std::count_if(d.ledger.begin(), d.ledger.end(), [](const auto& row) { return row.status != "done"; }));
+}
+
+std::string percent_range(const std::pair<double, double>& range) {
+  if (!std::isfinite(range.first) || !std::isfinite(range.second)) return "";
+  return fmt::format(" ({:.0f} to {:.0f})", 100.0 * range.first, 100.0 * range.second);
+}
+
+void add_shrinkage(std::vector<viz::ReportRow>& rows, const std::string& what, const Shrinkage& s) {
+  if (s.observations.empty()) return;
+  rows.push_back({"Gap closed, " + what + " (90 % interval)",
+                  fmt::format("{:.0f}{}", 100.0 * s.fraction, percent_range(s.interval_90)), "%"});
+}
+
+/// The short list after the verdict.
+std::vector<viz::ReportRow> figures_of(const Diagnosis& d) {
+  std::vector<viz::ReportRow> rows;
+  const auto significant =
+      std::count_if(d.gap.rows.begin(), d.gap.rows.end(), [](const auto& row) { return row.significant; });
+  rows.push_back(
+      {"Features that differ significantly", fmt::format("{} of {}", significant, d.gap.rows.size()), ""});
+  rows.push_back({"Gap beyond noise", rounded(d.gap.excess), "noise"});
+  rows.push_back({"Noise floor of what is compared by ratio", rounded(100.0 * d.gap.noise_floor), "%"});
+  if (!d.explanations.empty())
+    rows.push_back(
+        {"Most probable: " + d.explanations.front().id, per_cent(d.explanations.front().probability), "%"});
+  if (d.ambiguity_set.size() > 1)
+    rows.push_back({fmt::format("Not to be told apart: {}", fmt::join(d.ambiguity_set, ", ")),
+                    per_cent(d.set_probability), "%"});
+  for (const auto& e : d.explanations)
+    if (e.id == "unknown") rows.push_back({"Something else (unknown)", per_cent(e.probability), "%"});
+  rows.push_back({"Probability that noise alone leaves such a misfit", rounded(d.goodness), ""});
+  add_shrinkage(rows, "fitted observations", d.fitted);
+  add_shrinkage(rows, "withheld observations", d.withheld);
+  if (!d.withheld.observations.empty()) {
+    rows.push_back({"Control: only the polymer's modulus retuned", per_cent(d.retuned), "%"});
+    if (!d.wrong_effect.empty())
+      rows.push_back({"Control: a wrong effect, " + d.wrong_effect, per_cent(d.wrong), "%"});
+  }
+  rows.push_back({"Simulated tests", std::to_string(d.ledger.size()), ""});
+  rows.push_back({"of which failed or not made", std::to_string(not_made(d)), ""});
+  return rows;
+}
+
+viz::ReportSection section(const std::string& heading, const std::string& text,
+                           const std::vector<viz::ReportPicture>& pictures) {
+  return {heading, text, {}, pictures};
+}
+
+viz::ReportSection where_section(const Diagnosis& d, const Pictures& pictures) {
+  auto out = section("Where the gap lies", d.gap.rows.empty() ? "No features could be compared." : "",
+                     pictures.where);
+  if (d.gap.rows.empty()) return out;
+  out.tables = {to_report(share_table(d), "Share of the gap by scale and by observation."),
+                to_report(gap_table(d),
+                          "Every feature. Difference: logarithm of the ratio of simulated to observed, or "
+                          "simulated less observed; sigma is its standard deviation.")};
+  return out;
+}
+
+viz::ReportSection which_section(const Diagnosis& d, const Pictures& pictures) {
+  auto out = section("Which effect", "", pictures.which);
+  out.tables = {to_report(shown_hypothesis_table(d), "Explanations, most probable first.")};
+  return out;
+}
+
+viz::ReportSection excluded_section(const Diagnosis& d) {
+  const Table table = excluded_table(d);
+  auto out = section("Excluded effects", table.rows.empty() ? "None is excluded." : "", {});
+  if (!table.rows.empty()) out.tables = {to_report(table, "")};
+  return out;
+}
+
+viz::ReportSection budget_section(const Diagnosis& d) {
+  const Table table = noise_table(d);
+  auto out = section("Uncertainty budget",
+                     "Standard deviations of each feature's difference: between realisations, of the "
+                     "measurement, of the model of effects, and of what is believed of the specimens.",
+                     {});
+  if (!table.rows.empty()) out.tables = {to_report(table, "")};
+  return out;
+}
+
+viz::ReportSection far_section(const Diagnosis& d, const Pictures& pictures) {
+  std::string text;
+  if (pictures.how_far.empty()) text = "No test was simulated with an effect added.";
+  if (!d.withheld.observations.empty())
+    text = fmt::format("Withheld: {}.", fmt::join(d.withheld.observations, ", "));
+  return section("How far the gap shrinks", text, pictures.how_far);
+}
+
+viz::ReportSection next_section(const Diagnosis& d, const Pictures& pictures) {
+  auto out =
+      section("What to measure next",
+              d.next.empty() ? "Nothing more is needed, or nothing known would help." : "", pictures.next);
+  if (!d.next.empty()) out.tables = {to_report(next_table(d), "")};
+  return out;
+}
+
+viz::ReportSection ledger_section(const Diagnosis& d) {
+  Table table = ledger_table(d);
+  auto out = section("Simulated tests",
+                     fmt::format("{} in all, of which {} failed or were not made; these come first.",
+                                 d.ledger.size(), not_made(d)),
+                     {});
+  if (d.ledger.empty()) return out;
+  out.tables.push_back(to_report(ledger_counts(d), "Tests by purpose."));
+  std::string caption;
+  if (table.rows.size() > kLongestLedger) {
+    caption = fmt::format("The first {} of {}; ledger.csv has all.", kLongestLedger, table.rows.size());
+    table.rows.resize(kLongestLedger);
+  }
+  for (auto& row : table.rows) row[0] = std::get<std::string>(row[0]).substr(0, 12);
+  out.tables.push_back(to_report(table, caption));
+  return out;
+}
+
+}  // namespace
+
+viz::Report page_of(const Diagnosis& d, const Pictures& pictures) {
+  viz::Report report;
+  report.title = "Diagnosis: " + d.experiment;
+  report.summary = d.verdict;
+  report.warnings = d.warnings;
+  report.figures = figures_of(d);
+  report.sections.push_back(where_section(d, pictures));
+  if (!pictures.overlays.empty())
+    report.sections.push_back(section("Measured beside simulated", "", pictures.overlays));
+  report.sections.push_back(which_section(d, pictures));
+  report.sections.push_back(far_section(d, pictures));
+  report.sections.push_back(next_section(d, pictures));
+  report.sections.push_back(budget_section(d));
+  report.sections.push_back(excluded_section(d));
+  report.sections.push_back(ledger_section(d));
+  report.provenance = to_json(d.provenance);
+  return report;
+}
+
+}  // namespace pendular::diagnosis_report

@@ -1,0 +1,159 @@
+#include "diagnosis_report/tables.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "diagnosis_report/explanations.h"
+
+namespace pendular::diagnosis_report {
+namespace {
+
+using diagnosis::Diagnosis;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::string yes(bool value) {
+  return value ? "yes" : "no";
+}
+
+/// Adds to the number of the row that starts with these words, which is made where it is not there.
+void add_to(Table& table, const std::vector<Cell>& start, double amount, std::size_t column) {
+  for (auto& row : table.rows)
+    if (std::equal(start.begin(), start.end(), row.begin())) {
+      row[column] = std::get<double>(row[column]) + amount;
+      return;
+    }
+  auto row = start;
+  row.resize(table.columns.size(), Cell(0.0));
+  row[column] = amount;
+  table.rows.push_back(std::move(row));
+}
+
+std::vector<Cell> hypothesis_row(const Diagnosis& d, const diagnosis::Explanation& e) {
+  std::vector<Cell> row = {e.id, e.probability};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const bool there = k < e.magnitudes.size();
+    row.emplace_back(there ? e.magnitudes[k].mean : kNone);
+    row.emplace_back(there ? e.magnitudes[k].interval_90.first : kNone);
+    row.emplace_back(there ? e.magnitudes[k].interval_90.second : kNone);
+    row.emplace_back(k < e.units.size() ? e.units[k] : "");
+  }
+  row.emplace_back(e.misfit);
+  row.emplace_back(yes(in_ambiguity_set(d, e.id)));
+  row.emplace_back(yes(e.excluded));
+  row.emplace_back(e.reason);
+  return row;
+}
+
+bool is_done(const diagnosis::LedgerRow& row) {
+  return row.status == "done";
+}
+
+/// The purpose without its magnitude.
+std::string first_word(const std::string& purpose) {
+  return purpose.substr(0, purpose.find(' '));
+}
+
+}  // namespace
+
+Table gap_table(const Diagnosis& d) {
+  Table table{"gap",
+              {"observation", "feature", "scale", "strain_from", "strain_to", "observed", "simulated",
+               "compared_by", "difference", "sigma", "z", "significant", "share"},
+              {}};
+  for (const auto& row : d.gap.rows) {
+    const auto& f = row.observed;
+    table.rows.push_back({f.observation, f.name, to_string(f.scale), f.strain_from, f.strain_to, f.value,
+                          row.simulated, f.logarithm ? "ratio" : "difference", row.difference, row.sigma,
+                          row.z, yes(row.significant), row.share});
+  }
+  return table;
+}
+
+Table share_table(const Diagnosis& d) {
+  Table table{"gap_shares", {"by", "name", "share"}, {}};
+  for (const auto& row : d.gap.rows) add_to(table, {"scale", to_string(row.observed.scale)}, row.share, 2);
+  for (const auto& row : d.gap.rows) add_to(table, {"observation", row.observed.observation}, row.share, 2);
+  return table;
+}
+
+Table noise_table(const Diagnosis& d) {
+  Table table{"noise_budget",
+              {"observation", "feature", "ensemble", "measurement", "model", "believed", "total"},
+              {}};
+  for (std::size_t k = 0; k < d.noise.size() && k < d.gap.rows.size(); ++k) {
+    const auto& noise = d.noise[k];
+    const auto& row = d.gap.rows[k];
+    table.rows.push_back({row.observed.observation, row.observed.name, noise.ensemble, noise.measurement,
+                          noise.model, noise.believed, row.sigma});
+  }
+  return table;
+}
+
+Table hypothesis_table(const Diagnosis& d) {
+  Table table{"hypotheses",
+              {"id", "probability", "magnitude", "low_90", "high_90", "unit", "magnitude_2", "low_90_2",
+               "high_90_2", "unit_2", "misfit", "in_ambiguity_set", "excluded", "reason"},
+              {}};
+  for (const auto& explanation : d.explanations) table.rows.push_back(hypothesis_row(d, explanation));
+  return table;
+}
+
+Table shown_hypothesis_table(const Diagnosis& d) {
+  const auto interval = [](const diagnosis::Magnitude& m) {
+    return rounded(m.interval_90.first) + " to " + rounded(m.interval_90.second);
+  };
+  Table table{"", {"explanation", "probability", "magnitude", "90 % interval", "unit", "remark"}, {}};
+  const Shown shown = shown_of(d);
+  for (const auto& e : shown.explanations) {
+    std::string mean, range, unit;
+    for (std::size_t k = 0; k < e.magnitudes.size(); ++k) {
+      const std::string between = k ? "; " : "";
+      mean += between + rounded(e.magnitudes[k].mean);
+      range += between + interval(e.magnitudes[k]);
+      unit += between + (k < e.units.size() ? e.units[k] : "");
+    }
+    std::string remark = in_ambiguity_set(d, e.id) ? "in the ambiguity set" : e.excluded ? "excluded" : "";
+    if (!e.reason.empty()) remark += (remark.empty() ? "" : ": ") + e.reason;
+    table.rows.push_back({e.id, e.probability, mean, range, unit, remark});
+  }
+  if (shown.other_pairs > 0)
+    table.rows.push_back({std::to_string(shown.other_pairs) + " other pairs together",
+                          shown.other_probability, "", "", "", ""});
+  return table;
+}
+
+Table excluded_table(const Diagnosis& d) {
+  Table table{"excluded", {"id", "probability", "reason"}, {}};
+  for (const auto& e : d.explanations)
+    if (e.excluded) table.rows.push_back({e.id, e.probability, e.reason});
+  return table;
+}
+
+Table next_table(const Diagnosis& d) {
+  Table table{"next_experiments", {"observation", "expected_probability_resolved", "cost", "why"}, {}};
+  for (const auto& next : d.next)
+    table.rows.push_back({next.observation, next.expected_probability_resolved, next.cost, next.why});
+  return table;
+}
+
+Table ledger_table(const Diagnosis& d) {
+  auto ledger = d.ledger;
+  std::stable_partition(ledger.begin(), ledger.end(), [](const auto& row) { return !is_done(row); });
+  Table table{"ledger", {"run", "purpose", "condition", "status", "message"}, {}};
+  for (const auto& row : ledger)
+    table.rows.push_back(
+        {row.hash, row.purpose, static_cast<double>(row.condition), row.status, row.message});
+  return table;
+}
+
+Table ledger_counts(const Diagnosis& d) {
+  Table table{"", {"purpose", "runs", "not made"}, {}};
+  for (const auto& row : d.ledger) {
+    add_to(table, {first_word(row.purpose)}, 1.0, 1);
+    add_to(table, {first_word(row.purpose)}, is_done(row) ? 0.0 : 1.0, 2);
+  }
+  return table;
+}
+
+}  // namespace pendular::diagnosis_report

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "diagnosis/diagnosis.h"
+#include "diagnosis_report/table.h"
+
+namespace pendular::diagnosis_report {
+
+/// gap.csv: a row per feature.
+Table gap_table(const diagnosis::Diagnosis& diagnosis);
+
+/// gap_shares.csv: the share of the gap by scale and by observation.
+Table share_table(const diagnosis::Diagnosis& diagnosis);
+
+/// noise_budget.csv: what makes up the noise of each feature, standard deviations.
+Table noise_table(const diagnosis::Diagnosis& diagnosis);
+
+/// hypotheses.csv: every explanation.
+Table hypothesis_table(const diagnosis::Diagnosis& diagnosis);
+
+/// The same for the page: pairs that do not matter summed up in one row.
+Table shown_hypothesis_table(const diagnosis::Diagnosis& diagnosis);
+
+/// excluded.csv: the explanations that are excluded, and why.
+Table excluded_table(const diagnosis::Diagnosis& diagnosis);
+
+/// next_experiments.csv.
+Table next_table(const diagnosis::Diagnosis& diagnosis);
+
+/// ledger.csv: every simulated test, those first that were not made.
+Table ledger_table(const diagnosis::Diagnosis& diagnosis);
+
+/// How many runs had which purpose, and how many of them were not made.
+Table ledger_counts(const diagnosis::Diagnosis& diagnosis);
+
+}  // namespace pendular::diagnosis_report

@@ -1,0 +1,173 @@
+#include "viz/band_plot.h"
+
+#include <vtkAxis.h>
+#include <vtkPen.h>
+#include <vtkPlotPoints.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "viz/chart.h"
+
+namespace pendular::viz {
+namespace {
+
+constexpr std::array<Colour, 3> kColours = {{{31, 90, 165}, {214, 106, 20}, {20, 130, 80}}};
+constexpr Colour kBlack{20, 20, 20}, kGrey{120, 120, 120};
+constexpr Area kWhole{0.115, 0.1, 0.865, 0.88}, kMain{0.115, 0.37, 0.865, 0.61},
+    kStrip{0.115, 0.1, 0.865, 0.21};
+constexpr double kZoom = 0.78;
+constexpr unsigned char kBandOpacity = 70, kLineOpacity = 90;
+constexpr std::size_t kFewPoints = 60;  // up to which points are drawn large
+
+struct Extent {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  void hold(const std::vector<double>& values) {
+    for (const double v : values)
+      if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+  }
+  /// With room at both ends, in shares of its length.
+  Extent widened(double below, double above) const {
+    if (!(high >= low)) return {0.0, 1.0};
+    const double length = high > low ? high - low : std::max(1e-3, std::fabs(high));
+    return {low - below * length, high + above * length};
+  }
+};
+
+bool there(const Band& band, std::size_t k) {
+  return std::isfinite(band.x[k]) && std::isfinite(band.low[k]) && std::isfinite(band.middle[k]) &&
+         std::isfinite(band.high[k]);
+}
+
+/// The parts of a band between its interruptions, as [first, last).
+std::vector<std::pair<std::size_t, std::size_t>> parts(const Band& band) {
+  std::vector<std::pair<std::size_t, std::size_t>> found;
+  for (std::size_t k = 0; k < band.x.size(); ++k) {
+    if (!there(band, k)) continue;
+    const std::size_t first = k;
+    while (k < band.x.size() && there(band, k)) ++k;
+    found.emplace_back(first, k);
+  }
+  return found;
+}
+
+std::vector<double> part_of(const std::vector<double>& values, std::size_t first, std::size_t last) {
+  return {values.begin() + static_cast<std::ptrdiff_t>(first),
+          values.begin() + static_cast<std::ptrdiff_t>(last)};
+}
+
+Points points_of(const std::vector<double>& x, const std::vector<double>& y) {
+  Points points;
+  for (std::size_t k = 0; k < x.size(); ++k)
+    if (std::isfinite(x[k]) && std::isfinite(y[k])) points.emplace_back(x[k], y[k]);
+  return points;
+}
+
+void add_markers(vtkChartXY* chart, const Points& points, const std::string& label, Colour colour,
+                 double size, const Canvas& canvas) {
+  auto* plot =
+      vtkPlotPoints::SafeDownCast(add_plot(chart, vtkChart::POINTS, points, label, colour, canvas.scaled(2)));
+  plot->SetMarkerStyle(vtkPlotPoints::CIRCLE);
+  plot->SetMarkerSize(static_cast<float>(canvas.scaled(size)));
+}
+
+void add_band(vtkChartXY* chart, const Band& band, Colour colour, bool named, const Canvas& canvas) {
+  for (const Series& line : band.lines)
+    add_plot(chart, vtkChart::LINE, points_of(line.x, line.y), "", colour, canvas.scaled(1.5))
+        ->GetPen()
+        ->SetOpacity(kLineOpacity);
+  bool first_part = named;
+  for (const auto& [first, last] : parts(band)) {
+    const auto x = part_of(band.x, first, last), low = part_of(band.low, first, last),
+               middle = part_of(band.middle, first, last), high = part_of(band.high, first, last);
+    const std::string label = first_part ? band.label : "";
+    first_part = false;
+    if (x.size() == 1) {
+      add_plot(chart, vtkChart::LINE, {{x[0], low[0]}, {x[0], high[0]}}, "", colour, canvas.scaled(4));
+      add_markers(chart, points_of(x, middle), label, colour, 20, canvas);
+      continue;
+    }
+    add_fill(chart, x, low, high, "", colour, kBandOpacity);
+    add_plot(chart, vtkChart::LINE, points_of(x, middle), label, colour, canvas.scaled(5));
+  }
+}
+
+void add_measured(vtkChartXY* chart, const Series& measured, const Canvas& canvas) {
+  const Points points = points_of(measured.x, measured.y);
+  if (points.empty()) return;
+  if (measured.look != Series::Look::points) {
+    add_plot(chart, vtkChart::LINE, points, measured.label, kBlack, canvas.scaled(4));
+    return;
+  }
+  for (std::size_t k = 0; k < measured.sd.size(); ++k)
+    if (std::isfinite(measured.sd[k]))
+      add_plot(
+          chart, vtkChart::LINE,
+          {{measured.x[k], measured.y[k] - measured.sd[k]}, {measured.x[k], measured.y[k] + measured.sd[k]}},
+          "", kBlack, canvas.scaled(3));
+  add_markers(chart, points, measured.label, kBlack, points.size() > kFewPoints ? 7 : 18, canvas);
+}
+
+Extent across(const BandPlot& plot) {
+  Extent extent;
+  extent.hold(plot.measured.x);
+  for (const Band& band : plot.bands) extent.hold(band.x);
+  if (extent.low > 0.0 && extent.low < 0.25 * extent.high) extent.low = 0.0;
+  return extent.widened(0.02, 0.03);
+}
+
+/// Room above for the legend.
+Extent up(const BandPlot& plot) {
+  Extent extent;
+  extent.hold(plot.measured.y);
+  for (const Band& band : plot.bands) {
+    extent.hold(band.low), extent.hold(band.high);
+    for (const Series& line : band.lines) extent.hold(line.y);
+  }
+  const double lines = 1.0 + static_cast<double>(plot.bands.size());
+  return extent.widened(0.04, 0.06 + 0.085 * lines);
+}
+
+void add_strip(ChartSheet& sheet, const BandPlot& plot, const Extent& x) {
+  const Canvas& canvas = sheet.canvas();
+  vtkChartXY* chart = sheet.add_chart(kStrip);
+  chart->SetShowLegend(false);
+  Extent y;
+  y.hold({0.0});
+  y.hold(plot.error.low), y.hold(plot.error.high);
+  for (const Band& band : plot.residuals) y.hold(band.low), y.hold(band.high);
+  y = y.widened(0.08, 0.08);
+  for (const auto& [first, last] : parts(plot.error))
+    add_fill(chart, part_of(plot.error.x, first, last), part_of(plot.error.low, first, last),
+             part_of(plot.error.high, first, last), "", kGrey, kBandOpacity);
+  for (std::size_t k = 0; k < plot.residuals.size(); ++k)
+    add_band(chart, plot.residuals[k], kColours[k % kColours.size()], false, canvas);
+  add_plot(chart, vtkChart::LINE, {{x.low, 0.0}, {x.high, 0.0}}, "", kBlack, canvas.scaled(2.5));
+  set_axis(chart->GetAxis(vtkAxis::BOTTOM), x.low, x.high, canvas);
+  set_axis(chart->GetAxis(vtkAxis::LEFT), y.low, y.high, canvas, 1.0, 4);
+  sheet.write_upright(plot.residual_title, 0.022, kStrip.middle_y());
+}
+
+}  // namespace
+
+Image draw_bands(const Display& display, const BandPlot& plot, PictureSize size) {
+  ChartSheet sheet(display, size, kZoom * size.width / 1600.0);
+  const Canvas& canvas = sheet.canvas();
+  const bool strip = !plot.residuals.empty();
+  const Area area = strip ? kMain : kWhole;
+  const Extent x = across(plot), y = up(plot);
+  vtkChartXY* chart = sheet.add_chart(area);
+  for (std::size_t k = 0; k < plot.bands.size(); ++k)
+    add_band(chart, plot.bands[k], kColours[k % kColours.size()], true, canvas);
+  add_measured(chart, plot.measured, canvas);
+  set_axis(chart->GetAxis(vtkAxis::BOTTOM), x.low, x.high, canvas);
+  set_axis(chart->GetAxis(vtkAxis::LEFT), y.low, y.high, canvas);
+  sheet.write_upright(plot.y_title, 0.022, area.middle_y());
+  sheet.write(plot.x_title, area.middle_x(), 0.03);
+  if (strip) add_strip(sheet, plot, x);
+  return sheet.draw();
+}
+
+}  // namespace pendular::viz
