@@ -25,6 +25,7 @@ void add_commands(CLI::App& app) {
   add_pipette(app);
   add_sweep(app);
   add_reproduce(app);
+  add_diagnose(app);
   add_sweep_run(app);
 }
 

@@ -14,6 +14,7 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr int kToys = 4000;
+constexpr double kWithPairs = 10.0;  // an effect may have so many times more in pairs and still be excluded
 
 Eigen::MatrixXd whole_covariance(const Gap& gap) {
   return gap.covariance + gap.believed * gap.believed.transpose();
@@ -146,7 +147,8 @@ void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hyp
     Explanation e{h.id, h.probability, h.magnitudes, {}, h.misfit / features};
     const auto ids = effects_in(h.id);
     for (const auto& id : ids) e.units.push_back(effects::find_effect(id, "diagnosis").unit);
-    if (ids.size() == 1 && marginal(hypotheses, h.id) < rules.excluded) {
+    if (ids.size() == 1 && h.probability < rules.excluded &&
+        marginal(hypotheses, h.id) < kWithPairs * rules.excluded) {
       const auto row =
           std::find(diagnosis.effects.begin(), diagnosis.effects.end(), h.id) - diagnosis.effects.begin();
       const double visible = diagnosis.separation(row, diagnosis.separation.cols() - 1);

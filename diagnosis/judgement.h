@@ -9,7 +9,7 @@ namespace pendular::diagnosis {
 struct Rules {
   Priors priors;
   double in_set = 0.9;        ///< probability that an ambiguity set holds together
-  double excluded = 0.01;     ///< an effect with less, pairs included, is excluded
+  double excluded = 0.01;     ///< of an effect by itself, below which it is excluded
   double separable = 9.0;     ///< Δ² below which two effects cannot be told apart
   double also_in_set = 0.05;  ///< probability from which an inseparable effect belongs to the set
 };

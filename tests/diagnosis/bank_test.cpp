@@ -1,0 +1,84 @@
+#include "diagnosis/bank.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "diagnosis/specimens.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+Experiment one_compression() {
+  Experiment experiment;
+  experiment.name = "small";
+  experiment.sample.specimen.diameter = experiment.sample.specimen.height = 1e-3;
+  Observation curve;
+  curve.name = "A";
+  curve.columns = {{"strain", {0.0, 0.02, 0.04}}, {"stress_pa", {0.0, 2e5, 5e5}}};
+  experiment.observations = {curve};
+  experiment.uncertainty = {{"bridges.youngs_modulus_pa", 1.5e5}, {"bridges.poisson_ratio", 0.02}};
+  return experiment;
+}
+
+std::set<double> magnitudes(const BankPlan& plan, const std::string& id) {
+  std::set<double> found;
+  for (const auto& point : plan.points)
+    if (point.id == id) found.insert(point.theta);
+  return found;
+}
+
+TEST(Bank, RunsEveryEffectAtThirdsAndInBothDirections) {
+  const BankPlan plan = plan_bank(one_compression(), {}, "beads");
+  EXPECT_EQ(plan.runs.size(), plan.requests.size());
+  EXPECT_EQ(magnitudes(plan, "missing_bridges").size(), 3u);
+  EXPECT_NEAR(*magnitudes(plan, "missing_bridges").rbegin(), 0.3, 1e-12);
+  EXPECT_EQ(magnitudes(plan, "bead_friction"), (std::set<double>{-0.4, -0.2, 0.2, 0.4}));
+  EXPECT_TRUE(magnitudes(plan, "machine_compliance").empty());  // is read off the baselines
+  EXPECT_TRUE(plan.absent.contains("funicular_bridges"));       // no polymer above W*
+  std::set<int> members;
+  for (const auto& point : plan.points) members.insert(point.member);
+  EXPECT_EQ(members.size(), 5u);
+}
+
+TEST(Bank, LeavesOutWhatItIsAsked) {
+  const BankPlan plan = plan_bank(one_compression(), {3, {"missing_bridges"}}, "beads");
+  EXPECT_TRUE(magnitudes(plan, "missing_bridges").empty());
+  EXPECT_TRUE(plan.absent.contains("missing_bridges"));
+}
+
+TEST(Bank, LargeSpecimensLearnOnSmallerOnesOfTheSameShape) {
+  Experiment experiment = one_compression();
+  experiment.sample.specimen.diameter = 4.25e-3, experiment.sample.specimen.height = 4.05e-3;
+  const BankPlan plan = plan_bank(experiment, {}, "beads");
+  for (std::size_t k = 0; k < plan.requests.size(); ++k) {
+    const auto& specimen = plan.requests[k].sample.specimen;
+    EXPECT_NEAR(specimen.height / specimen.diameter, 4.05 / 4.25, 1e-9);
+    EXPECT_EQ(plan.points[plan.runs[k].point].whole, specimen.diameter == 4.25e-3);
+    const DesignPoint& point = plan.points[plan.runs[k].point];
+    if (point.whole || point.id == "specimen.volume_fraction") continue;
+    EXPECT_NEAR(beads_in({plan.requests[k].sample, {}, {}}), 1500.0, 1.0);
+  }
+  // Roughness is a length of the ends: it shrinks with the specimen.
+  for (const auto& request : plan.requests) {
+    const auto found = request.sample.effects.find("platen_roughness");
+    if (found == request.sample.effects.end()) continue;
+    EXPECT_LE(found->second, 40.0 * request.sample.specimen.diameter / 4.25e-3 + 1e-9);
+  }
+}
+
+TEST(Bank, BelievedInputsMoveInSharesAndStopAtTheirRange) {
+  const Experiment experiment = one_compression();
+  Condition condition{experiment.sample, {}, {0}};
+  condition.sample.bridges.youngs_modulus = 3e6;  // another polymer, twice the believed one
+  const Sample stiffer = changed_condition(experiment, condition, {{"bridges.youngs_modulus_pa", 2.0}});
+  EXPECT_NEAR(stiffer.bridges.youngs_modulus, 3.6e6, 1.0);
+  const Sample limit = changed_condition(experiment, condition, {{"bridges.poisson_ratio", 2.0}});
+  EXPECT_LT(limit.bridges.poisson_ratio, 0.5);
+  const auto floating = floating_inputs(experiment);
+  EXPECT_TRUE(floating.contains("specimen.volume_fraction"));  // beads were not measured
+}
+
+}  // namespace
+}  // namespace pendular::diagnosis

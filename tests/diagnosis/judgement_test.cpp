@@ -1,0 +1,112 @@
+#include "diagnosis/judgement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diagnosis/next_experiments.h"
+#include "diagnosis/shrinkage.h"
+#include "diagnosis/verdict.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+/// Three features of one curve; compliance and missing bridges lower the first alike and differ in the
+/// second.
+Problem planted(const Eigen::Vector3d& gap) {
+  Problem problem;
+  for (const char* name : {"linear_modulus", "coordination", "peak_stress"})
+    problem.observed.features.push_back({"A", name, Scale::aggregate, true, 1.0, 0.0, 0.0});
+  problem.observed.observation = {0, 0, 0};
+  problem.observed.sigmas = {0.02, 0.02, 0.02};
+  problem.simulated = Eigen::Vector3d::Zero();
+  problem.gap.values = gap;
+  problem.gap.covariance = 4e-4 * Eigen::Matrix3d::Identity();
+  problem.gap.believed = Eigen::Vector3d(0.03, 0.0, 0.02);
+  problem.inputs = {"bridges.youngs_modulus_pa"};
+  problem.signatures = {{"missing_bridges", {Eigen::Vector3d(-2.0, -1.0, -1.5)}, 0.0, 0.4, 0.15},
+                        {"machine_compliance", {Eigen::Vector3d(-0.05, 0.0, 0.0)}, 0.0, 13.0, 5.0}};
+  problem.noise.resize(3);
+  return problem;
+}
+
+Experiment one_curve() {
+  Experiment experiment;
+  Observation curve;
+  curve.name = "A";
+  curve.columns = {{"strain", {0.0, 0.1}}, {"stress_pa", {0.0, 1.0}}};
+  experiment.observations = {curve};
+  experiment.uncertainty = {{"bridges.youngs_modulus_pa", 5e4}};
+  return experiment;
+}
+
+Diagnosis judged(const Eigen::Vector3d& gap) {
+  Diagnosis diagnosis;
+  judge(planted(gap), {}, {}, one_curve(), diagnosis);
+  return diagnosis;
+}
+
+double total(const Diagnosis& diagnosis) {
+  double sum = 0.0;
+  for (const auto& e : diagnosis.explanations) sum += e.probability;
+  return sum;
+}
+
+TEST(Judgement, NamesAPlantedEffectAndItsMagnitude) {
+  const auto diagnosis = judged({-0.4, -0.2, -0.3});
+  EXPECT_EQ(diagnosis.explanations.front().id, "missing_bridges");
+  EXPECT_EQ(diagnosis.ambiguity_set, std::vector<std::string>{"missing_bridges"});
+  EXPECT_NEAR(diagnosis.explanations.front().magnitudes.front().mean, 0.2, 0.02);
+  EXPECT_NEAR(total(diagnosis), 1.0, 1e-9);
+  for (const auto& e : diagnosis.explanations)
+    EXPECT_EQ(e.id == "machine_compliance", e.excluded && !e.reason.empty());
+  ASSERT_EQ(diagnosis.groups.size(), 1u);
+  EXPECT_NEAR(diagnosis.groups.front().magnitude.mean, 0.2, 0.03);
+  EXPECT_NE(verdict_of(diagnosis).find("missing_bridges"), std::string::npos);
+}
+
+TEST(Judgement, NoGapNeedsNoExplanation) {
+  const auto diagnosis = judged({0.01, -0.01, 0.01});
+  EXPECT_EQ(diagnosis.explanations.front().id, "none");
+  EXPECT_NE(verdict_of(diagnosis).find("Nothing needs to be explained"), std::string::npos);
+}
+
+TEST(Judgement, WhatNoEffectCanDoIsUnknown) {
+  const auto diagnosis = judged({0.4, -0.4, 0.5});
+  EXPECT_EQ(diagnosis.explanations.front().id, "unknown");
+  EXPECT_GT(diagnosis.explanations.front().probability, 0.9);
+}
+
+TEST(Judgement, EffectsThatLookAlikeAreASet) {
+  Problem problem = planted({-0.4, 0.0, 0.0});
+  problem.signatures[0].powers = {Eigen::Vector3d(-2.0, 0.0, 0.0)};
+  Diagnosis diagnosis;
+  judge(problem, {}, {}, one_curve(), diagnosis);
+  EXPECT_EQ(diagnosis.ambiguity_set.size(), 2u);
+  const auto next = next_experiments(one_curve(), diagnosis.explanations);
+  ASSERT_FALSE(next.empty());
+  EXPECT_EQ(next.front().observation,
+            "the platens pressed on a steel block");  // it settles the one for little
+}
+
+TEST(Judgement, WhatOneExplanationHasNeedsNoFurtherExperiment) {
+  EXPECT_TRUE(
+      next_experiments(one_curve(), {{"missing_bridges", 0.95, {}, {}}, {"unknown", 0.05, {}, {}}}).empty());
+}
+
+TEST(Shrinkage, IsOneWhereTheGapIsGoneAndZeroWhereItStays) {
+  const Gap gap = planted({-0.4, -0.2, -0.3}).gap;
+  const auto gone = shrinkage_of(gap, Eigen::Vector3d::Zero());
+  EXPECT_EQ(gone.after, 0.0);
+  EXPECT_EQ(gone.fraction, 1.0);
+  const auto stays = shrinkage_of(gap, gap.values);
+  EXPECT_NEAR(stays.fraction, 0.0, 1e-12);
+  EXPECT_NEAR(stays.before, excess(gap), 1e-12);
+  const auto half = shrinkage_of(gap, 0.5 * gap.values);
+  EXPECT_NEAR(half.fraction, 0.5, 0.02);
+  EXPECT_LT(half.interval_90.first, half.fraction);
+  EXPECT_GT(half.interval_90.second, half.fraction);
+}
+
+}  // namespace
+}  // namespace pendular::diagnosis
