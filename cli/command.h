@@ -42,7 +42,9 @@ void add_convert(CLI::App& app);
 void add_sweep(CLI::App& app);
 void add_reproduce(CLI::App& app);
 void add_diagnose(CLI::App& app);
+void add_blind(CLI::App& app);
 void add_sweep_run(CLI::App& app);  // the process of one run; not for users
+void add_blind_case(CLI::App& app);  // the process of one case; not for users
 void add_pipette(CLI::App& app);
 
 }  // namespace pendular::cli

@@ -26,7 +26,9 @@ void add_commands(CLI::App& app) {
   add_sweep(app);
   add_reproduce(app);
   add_diagnose(app);
+  add_blind(app);
   add_sweep_run(app);
+  add_blind_case(app);
 }
 
 CLI::App new_app() {

@@ -1,0 +1,157 @@
+#include "blind/case_folder.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/provenance.h"
+#include "base/random.h"
+#include "blind/instruments.h"
+#include "blind/mechanism.h"
+#include "dem_core/run_length.h"
+#include "effects/list.h"
+#include "packing/tables.h"
+
+namespace pendular::blind {
+namespace {
+
+using nlohmann::ordered_json;
+
+const SharedPacking& packing_of(const Split& split, const CasePlan& plan) {
+  return split.packings[plan.packing];
+}
+
+/// Seeds of a packing's two specimens.
+std::uint64_t seed_of(const SharedPacking& packing, std::uint64_t specimen) {
+  return random_bits(packing.seed, specimen) >> 1;
+}
+
+ordered_json sealed_json(const Split& split, const CasePlan& plan, const ordered_json& noise) {
+  ordered_json json;
+  json["case"] = plan.name;
+  json["split"] = {{"name", split.name}, {"seed", split.seed}, {"sha256", split.content}};
+  json["salt"] = plan.salt;
+  json["seed"] = plan.seed;
+  json["stratum"] = to_string(plan.stratum);
+  json["answer"] = right_answer(plan);
+  json["effects"] = ordered_json::array();
+  for (const auto& effect : effects::all_effects())
+    if (const auto found = plan.effects.find(effect.id); found != plan.effects.end())
+      json["effects"].push_back({{"id", effect.id}, {"theta", found->second}, {"unit", effect.unit}});
+  if (!plan.mechanism.empty()) {
+    const Mechanism& mechanism = find_mechanism(plan.mechanism, plan.name);
+    json["mechanism"] = {{"id", mechanism.id},
+                         {"kind", mechanism.kind},
+                         {"theta", plan.mechanism_theta},
+                         {"unit", mechanism.unit}};
+  }
+  json["law"] = plan.law;
+  json["packing"] = plan.packing + 1;
+  const Sample believed = believed_a(split, packing_of(split, plan));
+  for (const auto& [key, offset] : plan.offsets)
+    json["beliefs"][key] = {{"believed", sample_key(believed, key)},
+                            {"sigma", split.uncertainty.at(key)},
+                            {"off_by_sigmas", offset}};
+  json["noise"] = noise;
+  json["provenance"] = {{"version", program_version()}};
+  return json;
+}
+
+std::string observation_toml(const std::string& kind, const std::string& name, const std::string& beads,
+                             const std::string& set = "") {
+  std::string text =
+      fmt::format("\n[[observation]]\nkind = \"{}\"\nname = \"{}\"\nfile = \"{}.csv\"\n", kind, name, name);
+  if (!set.empty()) text += fmt::format("set = {{ {} }}\n", set);
+  if (!beads.empty()) text += fmt::format("beads = \"{}\"\n", beads);
+  return text;
+}
+
+std::string experiment_toml(const Split& split, const CasePlan& plan) {
+  const SharedPacking& packing = packing_of(split, plan);
+  std::string text =
+      fmt::format("[experiment]\nname = \"{}\"\nsample = \"sample.toml\"\n\n[uncertainty]\n", plan.name);
+  for (const auto& [key, sigma] : split.uncertainty) text += fmt::format("\"{}\" = {}\n", key, sigma);
+  text += observation_toml("compression", "A", "A_beads.csv");
+  if (plan.short_specimen)
+    text +=
+        observation_toml("compression", "B", "B_beads.csv",
+                         fmt::format("\"specimen.height_um\" = {:.10g}, \"bridges.youngs_modulus_pa\" = {}",
+                                     1e6 * packing.short_height, packing.short_youngs_modulus));
+  for (const auto& kind : plan.kinds) {
+    const bool of_polymer = kind == "bridge_stiffness" || kind == "bridge_diameters" || kind == "bridge_gaps";
+    text += observation_toml(kind, kind, of_polymer ? "" : "A_beads.csv");
+  }
+  return text;
+}
+
+/// A specimen of the case, tested; its measured beads go to the case's folder.
+TrueTest tested(const CaseFolders& folders, const Split& split, const CasePlan& plan, const char* name,
+                const Sample& believed, std::uint64_t number, const fs::path& part) {
+  const std::uint64_t seed = seed_of(packing_of(split, plan), number);
+  const Packing beads = true_beads(believed, seed, split);
+  write_beads(part / fmt::format("{}_beads.csv", name), measured_beads(beads, seed, split),
+              {program_version(), "pendular blind make", 0, {}});
+  return run_truth(plan, split, believed, beads, number, number == 0, folders.work(plan.name) / "run");
+}
+
+}  // namespace
+
+bool is_made(const CaseFolders& folders, const Split& split, const CasePlan& plan) {
+  if (!fs::exists(folders.open(plan.name)) || !fs::exists(folders.sealed(plan.name))) return false;
+  const auto json = ordered_json::parse(read_text(folders.sealed(plan.name)), nullptr, false);
+  if (json.is_discarded() || !json.contains("split") || json["split"].value("sha256", "") != split.content)
+    bad_input("{}: found a case of another split, seed or version, expected one of {} with seed {}",
+              folders.sealed(plan.name).string(), split.file.string(), split.seed);
+  return true;
+}
+
+void make_case(const CaseFolders& folders, const Split& split, const CasePlan& plan) {
+  const fs::path part = folders.work(plan.name) / "case", done = folders.open(plan.name);
+  fs::remove_all(folders.work(plan.name));
+  fs::remove_all(done);
+  make_folder(part);
+  make_folder(folders.sealed(plan.name).parent_path());
+  make_folder(done.parent_path());
+
+  const SharedPacking& packing = packing_of(split, plan);
+  const TrueTest a = tested(folders, split, plan, "A", believed_a(split, packing), 0, part);
+  std::optional<TrueTest> b;
+  if (plan.short_specimen) b = tested(folders, split, plan, "B", believed_b(split, packing), 1, part);
+  ordered_json noise;
+  for (const auto& [name, table] : observe(plan, split, a, b ? &*b : nullptr, noise))
+    write_text(part / (name + ".csv"), csv_text(table));
+  write_text(part / "sample.toml", sample_text(believed_a(split, packing)));
+  write_text(part / "experiment.toml", experiment_toml(split, plan));
+
+  const std::string truth = sealed_json(split, plan, noise).dump(2) + "\n";
+  write_text(part / "seal.txt", fmt::format("{}  {}.json\n", sha256(truth), plan.name));
+  write_text(folders.sealed(plan.name), truth);
+  fs::rename(part, done);
+  fs::remove_all(folders.work(plan.name));
+}
+
+std::string published_seal(const fs::path& case_folder) {
+  const std::string text = read_text(case_folder / "seal.txt");
+  const std::string hash = text.substr(0, text.find(' '));
+  if (hash.size() != 64)
+    bad_input("{}: found \"{}\", expected a SHA-256", (case_folder / "seal.txt").string(),
+              hash.substr(0, 80));
+  return hash;
+}
+
+double expected_particle_steps(const Split& split, const CasePlan& plan) {
+  const auto work = [&](Sample sample, double unloading) {
+    sample.compression.max_strain = split.max_strain;
+    const double section = 0.25 * M_PI * sample.specimen.diameter * sample.specimen.diameter;
+    const double beads = sample.specimen.volume_fraction * section * sample.specimen.height /
+                         (M_PI / 6.0 * std::pow(sample.beads.diameter, 3));
+    return beads * expected_steps(sample) * unloading;
+  };
+  constexpr double kUnloading = 1.5;  // what an unloading, and runs to find its strain, add
+  const SharedPacking& packing = packing_of(split, plan);
+  double steps = work(believed_a(split, packing), kUnloading);
+  if (plan.short_specimen) steps += work(believed_b(split, packing), 1.1);
+  return steps;
+}
+
+}  // namespace pendular::blind

@@ -1,0 +1,71 @@
+#include "blind/make.h"
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "blind/processes.h"
+#include "sweep/estimate.h"
+
+namespace pendular::blind {
+namespace {
+
+constexpr std::size_t kMostTold = 3;
+
+std::vector<std::size_t> missing(const CaseFolders& folders, const Split& split,
+                                 const std::vector<CasePlan>& plans) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t k = 0; k < plans.size(); ++k)
+    if (!is_made(folders, split, plans[k])) numbers.push_back(k);
+  return numbers;
+}
+
+void write_seals(const CaseFolders& folders, const std::vector<CasePlan>& plans) {
+  std::string text = "case,sha256\n";
+  for (const auto& plan : plans)
+    text += fmt::format("{},{}\n", plan.name, published_seal(folders.open(plan.name)));
+  write_text(folders.seals(), text);
+}
+
+}  // namespace
+
+void make_split(const CaseFolders& folders, const Split& split, std::size_t cores,
+                const std::function<std::vector<std::string>(std::size_t number)>& words_of) {
+  const auto plans = plan_of(split);
+  const auto numbers = missing(folders, split, plans);
+  make_folder(folders.root / "work");
+  std::vector<Job> jobs;
+  for (const std::size_t number : numbers)
+    jobs.push_back({words_of(number), folders.log(plans[number].name)});
+  Progress progress("blind make", static_cast<double>(plans.size()));
+  std::size_t made = plans.size() - numbers.size(), failed = 0;
+  std::string told;
+  progress.update(static_cast<double>(made));
+  run_jobs(jobs, cores, [&](std::size_t k, int status) {
+    status == 0 ? ++made : ++failed;
+    if (status == 0)
+      fs::remove(jobs[k].log);
+    else if (failed <= kMostTold)
+      told += fmt::format("; {}: {}", plans[numbers[k]].name, last_line(jobs[k].log));
+    progress.update(static_cast<double>(made + failed),
+                    fmt::format("{} of {} cases, {} failed", made, plans.size(), failed));
+  });
+  if (failed > 0)
+    throw ComputationFailed(fmt::format("{} of {} cases could not be made{}{}", failed, plans.size(), told,
+                                        failed > kMostTold ? "; …" : ""));
+  write_seals(folders, plans);
+  fs::remove_all(folders.root / "work");
+}
+
+std::string work_ahead(const CaseFolders& folders, const Split& split, std::size_t cores) {
+  const auto plans = plan_of(split);
+  const auto numbers = missing(folders, split, plans);
+  double steps = 0.0;
+  for (const std::size_t number : numbers) steps += expected_particle_steps(split, plans[number]);
+  const double seconds = steps / sweep::kStatedRate;
+  return fmt::format(
+      "{}: {} cases on {} packings, {} of them made; {} to make: about {:.3g} particle-steps, {:.0f} min of "
+      "one core, {:.0f} min on {} cores",
+      split.name, plans.size(), split.packings.size(), plans.size() - numbers.size(), numbers.size(), steps,
+      seconds / 60.0, seconds / 60.0 / static_cast<double>(cores), cores);
+}
+
+}  // namespace pendular::blind

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/files.h"
+#include "base/sample.h"
+
+namespace pendular::blind {
+
+/// What is withheld from a case.
+enum class Stratum { library, none, outside, pair, wrong_belief, other_law };
+inline constexpr std::size_t kStrata = 6;
+
+std::string to_string(Stratum stratum);
+/// BadInput, opening with `where`, for another word.
+Stratum stratum_of(const std::string& word, const std::string& where);
+
+/// Two specimens that cases share, as they are believed to be: what every case on them has in common.
+struct SharedPacking {
+  std::uint64_t seed = 1;
+  double height = 0.0;                ///< of specimen A, m
+  double short_height = 0.0;          ///< of specimen B, m
+  double short_youngs_modulus = 0.0;  ///< of B's polymer, Pa
+};
+
+/// A family of cases.
+struct Split {
+  std::string name;
+  std::uint64_t seed = 1;
+  std::size_t cases = 0;
+  fs::path file;
+  std::string content;                        ///< SHA-256 of what the cases follow from
+  Sample sample;                              ///< what is believed; A's height is the packing's
+  std::map<std::string, double> uncertainty;  ///< one sd of a believed value, by dotted key, in its unit
+  std::array<double, kStrata> shares = {};    ///< of the cases, summing to 1
+  std::vector<SharedPacking> packings;
+  double max_strain = 0.09, unload_at = 0.03;         ///< of the tests; A is unloaded once
+  double sigma_centre = 3e-7, sigma_diameter = 3e-7;  ///< of the measured beads, m
+};
+
+/// Reads a split file (docs/blind.md), with another seed where one is given. BadInput names file, line, key,
+/// what was found and what was expected.
+Split read_split(const fs::path& path, std::optional<std::uint64_t> seed);
+
+/// What is believed of specimen A of a packing, and of B.
+Sample believed_a(const Split& split, const SharedPacking& packing);
+Sample believed_b(const Split& split, const SharedPacking& packing);
+
+}  // namespace pendular::blind

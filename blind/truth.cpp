@@ -1,0 +1,141 @@
+#include "blind/truth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "blind/mechanism.h"
+#include "diagnosis/believed.h"
+#include "effects/compress.h"
+#include "effects/list.h"
+#include "packing/bridges.h"
+#include "packing/generate.h"
+
+namespace pendular::blind {
+namespace {
+
+constexpr double kBeyond = 1.03;     // of the last strain that is to be read
+constexpr double kFarBeyond = 1.35;  // where readings differ from what is
+constexpr double kProbe = 1.5;       // likewise, of the strain at which to unload
+
+/// Whether strain is read otherwise than it is.
+bool misread(const CasePlan& plan) {
+  if (!plan.mechanism.empty()) return find_mechanism(plan.mechanism, plan.name).rows != nullptr;
+  return std::any_of(plan.effects.begin(), plan.effects.end(), [&](const auto& item) {
+    return effects::find_effect(item.first, plan.name).rows != nullptr;
+  });
+}
+
+/// The hooks of the case's mechanism.
+CompressOptions hooks(const CasePlan& plan) {
+  CompressOptions options;
+  if (plan.mechanism.empty()) return options;
+  const Mechanism& mechanism = find_mechanism(plan.mechanism, plan.name);
+  const double theta = plan.mechanism_theta;
+  if (mechanism.simulation)
+    options.prepare = [&mechanism, theta](Simulation& simulation) {
+      mechanism.simulation(simulation, theta);
+    };
+  if (mechanism.evolution) options.evolution = {mechanism.memory, mechanism.evolution(theta)};
+  if (mechanism.rows)
+    options.read_rows = [&mechanism, theta](std::vector<CurveRow>& rows, const Simulation& simulation) {
+      mechanism.rows(rows, simulation, theta);
+    };
+  return options;
+}
+
+/// One test of a case's specimen.
+class Bench {
+ public:
+  Bench(const CasePlan& plan, const Packing& beads, const Sample& sample, std::uint64_t seed,
+        const fs::path& scratch)
+      : plan_(plan), beads_(beads), sample_(sample), seed_(seed), scratch_(scratch) {}
+
+  std::vector<CurveRow> compress(double max_strain, std::vector<double> unload_at) const {
+    Sample sample = sample_;
+    sample.compression.max_strain = max_strain;
+    sample.compression.unload_at = std::move(unload_at);
+    fs::remove_all(scratch_);
+    make_folder(scratch_.parent_path());
+    auto rows = effects::compress_with_effects(beads_, sample, seed_, scratch_, hooks(plan_)).rows;
+    fs::remove_all(scratch_);
+    return rows;
+  }
+
+  /// The strain at which the instruments first read this one, from a test without unloading. Its rows are
+  /// equal times at constant speed, and the last ends the test, whatever was made of their strains.
+  double strain_reading(double wanted) const {
+    const double end = kProbe * wanted;
+    const auto rows = compress(end, {});
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (rows[k].strain >= wanted)
+        return end - (static_cast<double>(rows.size() - k) - 0.5) / sample_.compression.rows_per_strain;
+    return end;
+  }
+
+ private:
+  const CasePlan& plan_;
+  const Packing& beads_;
+  const Sample& sample_;
+  std::uint64_t seed_;
+  fs::path scratch_;
+};
+
+}  // namespace
+
+Packing true_beads(const Sample& believed, std::uint64_t seed, const Split& split) {
+  Packing packing = generate_packing(believed, seed);
+  for (auto& bead : packing.beads)
+    bead.sigma_centre = split.sigma_centre, bead.sigma_diameter = split.sigma_diameter;
+  packing.bridges = candidate_bridges(packing.beads, believed.bridges.cutoff * believed.beads.diameter);
+  return packing;
+}
+
+std::vector<Bead> measured_beads(const Packing& actual, std::uint64_t seed, const Split& split) {
+  const std::uint64_t draws = random_bits(seed, 0x6d656173);
+  std::vector<Bead> beads = actual.beads;
+  for (std::size_t k = 0; k < beads.size(); ++k) {
+    for (int axis = 0; axis < 3; ++axis)
+      beads[k].centre[axis] += split.sigma_centre * random_normal(draws, 4 * k + static_cast<unsigned>(axis));
+    beads[k].diameter += split.sigma_diameter * random_normal(draws, 4 * k + 3);
+  }
+  return beads;
+}
+
+Sample true_sample(const CasePlan& plan, const Split& split, Sample believed) {
+  Sample sample = diagnosis::changed_sample(believed, [&](Sample& changed) {
+    for (const auto& [key, offset] : plan.offsets) {
+      // The sd is of A's value; another specimen is off by the same share.
+      const double stated = sample_key(split.sample, key);
+      const double share = stated != 0.0 ? sample_key(changed, key) / stated : 1.0;
+      set_sample_key(changed, key, sample_key(changed, key) + share * offset * split.uncertainty.at(key));
+    }
+  });
+  for (const auto& [key, value] : laws().at(plan.law)) set_sample_key(sample, key, value, plan.name);
+  sample.effects = plan.effects;
+  return sample;
+}
+
+TrueTest run_truth(const CasePlan& plan, const Split& split, const Sample& believed, const Packing& beads,
+                   std::uint64_t number, bool unload, const fs::path& scratch) {
+  TrueTest test;
+  test.sample = true_sample(plan, split, believed);
+  test.sample.compression.frames = 0.0;
+  const std::uint64_t seed = random_bits(plan.seed, number) >> 1;
+  Packing packing = beads;
+  if (!plan.mechanism.empty())
+    if (const Mechanism& mechanism = find_mechanism(plan.mechanism, plan.name); mechanism.packing)
+      mechanism.packing(packing, plan.mechanism_theta);
+  const auto specimen = effects::actual_specimen(packing, test.sample, seed);
+  test.packing = specimen.packing;
+  test.bodies = specimen.bodies;
+
+  const Bench bench(plan, packing, test.sample, seed, scratch);
+  std::vector<double> turns;
+  if (unload) turns = {misread(plan) ? bench.strain_reading(split.unload_at) : split.unload_at};
+  test.rows = bench.compress((misread(plan) ? kFarBeyond : kBeyond) * split.max_strain, turns);
+  return test;
+}
+
+}  // namespace pendular::blind

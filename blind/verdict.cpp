@@ -1,0 +1,184 @@
+#include "blind/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/csv.h"
+#include "base/error.h"
+#include "blind/case_folder.h"
+
+namespace pendular::blind {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kMark = "without_truth.txt";
+
+json parsed(const fs::path& path) {
+  json read = json::parse(read_text(path), nullptr, false);
+  if (read.is_discarded()) bad_input("{}: is no JSON", path.string());
+  return read;
+}
+
+/// Reads with `take`; what the JSON library finds wrong is said of the file.
+template <typename Result, typename Take>
+Result read_json(const fs::path& path, const Take& take) {
+  const json read = parsed(path);
+  try {
+    return take(read);
+  } catch (const json::exception& error) {
+    bad_input("{}: {}", path.string(), error.what());
+  }
+}
+
+std::optional<double> number_in(const json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_number()) return std::nullopt;
+  return found->get<double>();
+}
+
+Claim claim_of(const json& hypothesis) {
+  Claim claim;
+  claim.probability = hypothesis.at("probability").get<double>();
+  claim.magnitude = number_in(hypothesis, "magnitude");
+  const auto interval = hypothesis.find("interval_90");
+  if (interval != hypothesis.end() && interval->is_array() && interval->size() == 2 &&
+      (*interval)[0].is_number() && (*interval)[1].is_number())
+    claim.interval_90 = {(*interval)[0].get<double>(), (*interval)[1].get<double>()};
+  return claim;
+}
+
+void read_shrinkage(Diagnosed& said, const json& shrinkage) {
+  const auto withheld = shrinkage.find("withheld");
+  // Nothing withheld, nothing to close.
+  if (withheld == shrinkage.end() || number_in(*withheld, "before").value_or(0.0) <= 0.0) return;
+  said.withheld = number_in(*withheld, "fraction");
+  const auto controls = shrinkage.find("controls");
+  if (controls == shrinkage.end()) return;
+  said.retuned = number_in(*controls, "modulus_retuned");
+  said.wrong_effect = number_in(*controls, "wrong_effect");
+}
+
+std::string farthest_belief(const json& truth) {
+  std::string key;
+  double farthest = 0.0;
+  for (const auto& [name, belief] : truth.value("beliefs", json::object()).items())
+    if (const double off = belief.at("off_by_sigmas").get<double>(); std::fabs(off) > std::fabs(farthest))
+      key = name, farthest = off;
+  return key.empty() ? "" : fmt::format("{} {:+.2g} sigma", key, farthest);
+}
+
+}  // namespace
+
+std::string in_order(const std::string& id) {
+  const auto plus = id.find('+');
+  if (plus == std::string::npos) return id;
+  const std::string first = id.substr(0, plus), second = id.substr(plus + 1);
+  return first < second ? id : second + "+" + first;
+}
+
+std::string Verdict::top() const {
+  if (!said) return "";
+  const auto best = std::max_element(
+      said->claims.begin(), said->claims.end(),
+      [](const auto& a, const auto& b) { return a.second.probability < b.second.probability; });
+  return best->first;
+}
+
+double Verdict::probability(const std::string& id) const {
+  if (!said) return 0.0;
+  const auto found = said->claims.find(id);
+  return found == said->claims.end() ? 0.0 : found->second.probability;
+}
+
+bool Verdict::in_set(const std::string& id) const {
+  return said && std::find(said->set.begin(), said->set.end(), id) != said->set.end();
+}
+
+bool without_truth(const fs::path& reports) {
+  return fs::exists(reports / kMark);
+}
+
+void mark_without_truth(const fs::path& reports) {
+  write_text(reports / kMark, "Each case's true effects were left out of the library.\n");
+}
+
+Truth read_truth(const fs::path& sealed) {
+  return read_json<Truth>(sealed, [&](const json& read) {
+    Truth truth;
+    truth.name = read.at("case").get<std::string>();
+    truth.stratum = stratum_of(read.at("stratum").get<std::string>(), sealed.string());
+    truth.answer = in_order(read.at("answer").get<std::string>());
+    for (const auto& effect : read.at("effects"))
+      truth.effects.emplace_back(effect.at("id").get<std::string>(), effect.at("theta").get<double>());
+    if (read.contains("mechanism")) {
+      truth.mechanism = read["mechanism"].at("id").get<std::string>();
+      truth.mechanism_theta = read["mechanism"].at("theta").get<double>();
+    }
+    truth.law = read.at("law").get<std::string>();
+    if (truth.stratum == Stratum::wrong_belief) truth.wrong_belief = farthest_belief(read);
+    truth.packing = read.at("packing").get<std::size_t>();
+    return truth;
+  });
+}
+
+std::vector<Truth> open_seals(const fs::path& folder) {
+  const CaseFolders folders{folder};
+  const CsvTable seals = read_csv(folders.seals(), {"case", "sha256"});
+  std::vector<Truth> truths;
+  for (std::size_t k = 0; k < seals.rows(); ++k) {
+    const std::string &name = seals.texts("case")[k], &hash = seals.texts("sha256")[k];
+    const fs::path sealed = folders.sealed(name);
+    if (!fs::exists(sealed))
+      bad_input("{}: is missing, expected the truth of a case of {}", sealed.string(),
+                folders.seals().string());
+    const std::string found = sha256_of(sealed);
+    const bool open_too = fs::exists(folders.open(name));
+    if (found != hash || (open_too && published_seal(folders.open(name)) != found))
+      bad_input("{}: found a file of SHA-256 {}, expected the one that was published, {}", sealed.string(),
+                found, hash);
+    truths.push_back(read_truth(sealed));
+    if (truths.back().name != name)
+      bad_input("{}: found the truth of {}, expected that of {}", sealed.string(), truths.back().name, name);
+  }
+  if (truths.empty()) bad_input("{}: found no case", folders.seals().string());
+  return truths;
+}
+
+Diagnosed read_diagnosis(const fs::path& path) {
+  return read_json<Diagnosed>(path, [&](const json& read) {
+    Diagnosed said;
+    for (const auto& hypothesis : read.at("hypotheses"))
+      said.claims[in_order(hypothesis.at("id").get<std::string>())] = claim_of(hypothesis);
+    if (said.claims.empty()) bad_input("{}: hypotheses: found none", path.string());
+    for (const auto& id : read.at("ambiguity_set")) said.set.push_back(in_order(id.get<std::string>()));
+    read_shrinkage(said, read.at("shrinkage"));
+    if (const auto nearest = read.find("nearest_signature"); nearest != read.end() && nearest->is_string())
+      said.nearest_signature = in_order(nearest->get<std::string>());
+    return said;
+  });
+}
+
+std::vector<Verdict> verdicts(const std::vector<Truth>& truths, const fs::path& reports) {
+  if (!fs::is_directory(reports)) bad_input("{}: no such folder, expected one of reports", reports.string());
+  const bool left_out = without_truth(reports);
+  std::vector<Verdict> all;
+  for (const auto& truth : truths) {
+    if (left_out && truth.effects.empty()) continue;
+    Verdict verdict{truth, left_out ? "unknown" : truth.answer, std::nullopt, ""};
+    const fs::path path = reports / truth.name / "diagnosis.json";
+    try {
+      if (fs::exists(path))
+        verdict.said = read_diagnosis(path);
+      else
+        verdict.failure = "no diagnosis.json";
+    } catch (const BadInput& error) {
+      verdict.failure = error.what();
+    }
+    all.push_back(std::move(verdict));
+  }
+  return all;
+}
+
+}  // namespace pendular::blind

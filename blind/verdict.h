@@ -1,0 +1,77 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/files.h"
+#include "blind/split.h"
+
+namespace pendular::blind {
+
+/// The truth of a case, from its sealed file.
+struct Truth {
+  std::string name;
+  Stratum stratum = Stratum::none;
+  std::string answer;                                   ///< right_answer()
+  std::vector<std::pair<std::string, double>> effects;  ///< of the library, with θ
+  std::string mechanism;                                ///< outside of it; empty: none
+  double mechanism_theta = 0.0;
+  std::string law, wrong_belief;  ///< the believed value that is off by most, in the stratum of these
+  std::size_t packing = 1;
+};
+
+/// An explanation as diagnosis.json gives it.
+struct Claim {
+  double probability = 0.0;
+  std::optional<double> magnitude;
+  std::optional<std::pair<double, double>> interval_90;
+};
+
+/// What was said of one case.
+struct Diagnosed {
+  std::map<std::string, Claim> claims;  ///< by id; pairs "a+b" with a before b in the alphabet
+  std::vector<std::string> set;         ///< the ambiguity set, likewise
+  std::optional<double> withheld, retuned, wrong_effect;  ///< fractions of the withheld gap closed
+  std::optional<std::string> nearest_signature;
+};
+
+/// A case, what was right to say of it, and what was said; nothing where its diagnosis is missing or cannot
+/// be read, and why.
+struct Verdict {
+  Truth truth;
+  std::string answer;  ///< that counts as right: of the truth, or "unknown" where its effects were left out
+  std::optional<Diagnosed> said;
+  std::string failure;
+
+  std::string top() const;  ///< the most probable explanation; empty where nothing was said
+  double probability(const std::string& id) const;
+  bool in_set(const std::string& id) const;
+  bool exact() const { return said && top() == answer; }
+  bool confidently_wrong() const { return said && !exact() && probability(top()) > 0.9; }
+};
+
+/// Both halves of a pair in alphabetical order.
+std::string in_order(const std::string& id);
+
+/// Whether the reports of a folder were made with the true effects deleted from the library; the file that
+/// says so.
+bool without_truth(const fs::path& reports);
+void mark_without_truth(const fs::path& reports);
+
+/// The truth of each case that DIR/seals.csv lists. BadInput naming the case whose sealed file is missing or
+/// has not the published hash.
+std::vector<Truth> open_seals(const fs::path& folder);
+
+/// The truth of one case; BadInput for what is none.
+Truth read_truth(const fs::path& sealed);
+
+/// What REPORTS/NAME/diagnosis.json says; BadInput for what has not the contract's keys.
+Diagnosed read_diagnosis(const fs::path& path);
+
+/// Truths beside the reports. Where the true effects were left out only cases that have some count.
+std::vector<Verdict> verdicts(const std::vector<Truth>& truths, const fs::path& reports);
+
+}  // namespace pendular::blind
