@@ -114,7 +114,7 @@ class Truths {
         break;
       case Stratum::other_law:
         plan.law = laws_.draw();
-        add_effects(plan, number % 3 == 2 ? 0 : 1);
+        add_effects(plan, 1);
         break;
     }
     return plan;

@@ -63,15 +63,18 @@ class Bench {
     return rows;
   }
 
-  /// The strain at which the instruments first read this one, from a test without unloading. Its rows are
-  /// equal times at constant speed, and the last ends the test, whatever was made of their strains.
-  double strain_reading(double wanted) const {
-    const double end = kProbe * wanted;
+  /// The strain at which to turn so that the instruments' last row before it reads this one, from a test
+  /// without unloading. Rows are equal times at constant speed, and the last ends the test, whatever was made
+  /// of their strains.
+  double turn_reading(double wanted) const {
+    const double end = kProbe * wanted, row = 1.0 / sample_.compression.rows_per_strain;
     const auto rows = compress(end, {});
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      if (rows[k].strain >= wanted)
-        return end - (static_cast<double>(rows.size() - k) - 0.5) / sample_.compression.rows_per_strain;
-    return end;
+    std::size_t k = 0;
+    while (k < rows.size() && rows[k].strain < wanted) ++k;
+    if (k == 0 || k == rows.size()) return end;
+    const double share = (wanted - rows[k - 1].strain) / (rows[k].strain - rows[k - 1].strain);
+    const double middle = end - (static_cast<double>(rows.size() - k) + 0.5 - share) * row;
+    return middle + row;  // a row is a mean, and the one in which the platen turns is short of the turn
   }
 
  private:
@@ -133,7 +136,7 @@ TrueTest run_truth(const CasePlan& plan, const Split& split, const Sample& belie
 
   const Bench bench(plan, packing, test.sample, seed, scratch);
   std::vector<double> turns;
-  if (unload) turns = {misread(plan) ? bench.strain_reading(split.unload_at) : split.unload_at};
+  if (unload) turns = {misread(plan) ? bench.turn_reading(split.unload_at) : split.unload_at};
   test.rows = bench.compress((misread(plan) ? kFarBeyond : kBeyond) * split.max_strain, turns);
   return test;
 }

@@ -3,7 +3,9 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "blind/diagnose.h"
 #include "blind/make.h"
+#include "blind/score_files.h"
 #include "cli/command.h"
 
 namespace pendular::cli {
@@ -72,12 +74,80 @@ void add_make(CLI::App& blind) {
   });
 }
 
+struct DiagnoseOptions {
+  Common common;
+  fs::path folder;
+  blind::DiagnoseRequest request;
+};
+
+void diagnose(DiagnoseOptions options, std::vector<std::string> further) {
+  apply(options.common);
+  further.insert(further.end(), {"--threads", std::to_string(options.common.threads), "--seed",
+                                 std::to_string(options.common.seed)});
+  options.request.reports = options.common.out;
+  options.request.options = std::move(further);
+  if (options.request.store.empty()) options.request.store = options.common.out / "store";
+  const auto failed = blind::diagnose_cases({options.folder}, options.request);
+  if (!failed.empty())
+    throw ComputationFailed(fmt::format("{} cases could not be diagnosed; {}{}", failed.size(),
+                                        failed.front(), failed.size() > 1 ? "; …" : ""));
+}
+
+void add_diagnose(CLI::App& blind) {
+  auto options = std::make_shared<DiagnoseOptions>();
+  auto* command = blind.add_subcommand(
+      "diagnose",
+      "Runs `pendular diagnose` on every case of DIR/cases that has no report yet, one after the other.\n"
+      "Options that are not listed here are passed on to it. DIR/sealed need not be there.");
+  command->add_option("folder", options->folder, "Folder of `pendular blind make`")->required();
+  command->add_option("--store", options->request.store,
+                      "Folder of runs, which the cases share; default: OUT/store");
+  command->add_flag("--without-truth", options->request.without_truth,
+                    "Leave each case's true effects out of the library: `unknown` is then right. Reads\n"
+                    "DIR/sealed");
+  command->allow_extras();
+  add_common(*command, options->common, "Folder for the reports");
+  command->callback([options, command] { diagnose(*options, command->remaining()); });
+}
+
+struct ScoreOptions {
+  Common common;
+  fs::path folder, reports;
+};
+
+void score(const ScoreOptions& options) {
+  apply(options.common);
+  const auto truths = blind::open_seals(options.folder);
+  const auto verdicts = blind::verdicts(truths, options.reports);
+  if (verdicts.empty()) bad_input("{}: found no case to score", options.folder.string());
+  const auto scores = blind::score(verdicts, blind::without_truth(options.reports));
+  blind::write_scores(options.common.out, verdicts, scores,
+                      provenance(options.common, {blind::CaseFolders{options.folder}.seals()}));
+  say(fmt::format("{} cases, {} without a diagnosis: {}", scores.cases, scores.failed,
+                  (options.common.out / "score.md").string()));
+}
+
+void add_score(CLI::App& blind) {
+  auto options = std::make_shared<ScoreOptions>();
+  auto* command = blind.add_subcommand(
+      "score",
+      "Opens the sealed truth of DIR's cases, checks it against the published hashes, and scores the\n"
+      "reports REPORTS/NAME/diagnosis.json: score.md, score.json, cases.csv. Cases without a report count\n"
+      "as wrong.");
+  command->add_option("folder", options->folder, "Folder of `pendular blind make`")->required();
+  command->add_option("reports", options->reports, "Folder of `pendular blind diagnose`")->required();
+  add_common(*command, options->common, "Folder for the scores");
+  command->callback([options] { score(*options); });
+}
+
 }  // namespace
 
 void add_blind(CLI::App& app) {
   auto* command = app.add_subcommand("blind", "Checks of `pendular diagnose` with the effect withheld");
   command->require_subcommand(1);
   add_make(*command);
+  add_diagnose(*command);
+  add_score(*command);
 }
 
 void add_blind_case(CLI::App& app) {

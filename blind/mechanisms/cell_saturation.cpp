@@ -15,8 +15,8 @@ Mechanism cell_saturation() {
           .kind = "instrument",
           .unit = "1/N",
           .meaning = "loss of the load cell's gain per newton",
-          .from = 0.1,
-          .to = 0.3,
+          .from = 0.04,
+          .to = 0.12,
           .rows = saturate};
 }
 

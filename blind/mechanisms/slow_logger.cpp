@@ -28,7 +28,7 @@ Mechanism slow_logger() {
           .unit = "strain",
           .meaning = "strain made during the time over which the force is averaged",
           .from = 0.004,
-          .to = 0.012,
+          .to = 0.01,
           .rows = average};
 }
 

@@ -17,8 +17,8 @@ Mechanism soft_contacts() {
           .kind = "contacts",
           .unit = "fraction",
           .meaning = "stiffness that contacts of beads have lost",
-          .from = 0.5,
-          .to = 0.9,
+          .from = 0.3,
+          .to = 0.7,
           .simulation = soften};
 }
 

@@ -5,11 +5,10 @@
 namespace pendular::blind {
 namespace {
 
-void tare(std::vector<CurveRow>& rows, const Simulation&, double theta) {
-  double highest = 0.0;
-  for (const auto& row : rows) highest = std::max(highest, row.stress);
-  const auto start = std::find_if(rows.begin(), rows.end(),
-                                  [&](const CurveRow& row) { return row.stress > theta * highest; });
+void tare(std::vector<CurveRow>& rows, const Simulation& simulation, double theta) {
+  const double preload = theta / simulation.section;
+  const auto start =
+      std::find_if(rows.begin(), rows.end(), [&](const CurveRow& row) { return row.stress > preload; });
   if (start == rows.end()) return;
   const CurveRow zero = *start;
   rows.erase(rows.begin(), start);
@@ -23,15 +22,15 @@ void tare(std::vector<CurveRow>& rows, const Simulation&, double theta) {
 
 }  // namespace
 
-/// All readings were set to zero when the specimen already carried the share θ of its largest stress. Takes
-/// the toe away and lowers the peak and the strains.
+/// All readings were set to zero when the specimen already carried the force θ. Takes the toe away and lowers
+/// the peak and the strains.
 Mechanism tared_preload() {
   return {.id = "tared_preload",
           .kind = "bookkeeping",
-          .unit = "fraction",
-          .meaning = "share of the largest stress that was counted as zero",
-          .from = 0.1,
-          .to = 0.3,
+          .unit = "N",
+          .meaning = "force that was counted as zero",
+          .from = 0.4,
+          .to = 1.2,
           .rows = tare};
 }
 

@@ -21,8 +21,8 @@ Mechanism tension_softness() {
           .kind = "polymer",
           .unit = "fraction",
           .meaning = "normal stiffness that a bridge loses in tension",
-          .from = 0.5,
-          .to = 0.9,
+          .from = 0.3,
+          .to = 0.7,
           .evolution = soften,
           .memory = 1};
 }

@@ -27,8 +27,8 @@ Mechanism weak_layer() {
           .kind = "specimen",
           .unit = "fraction",
           .meaning = "stiffness that the bridges of a layer at mid-height have lost",
-          .from = 0.6,
-          .to = 0.9,
+          .from = 0.3,
+          .to = 0.7,
           .simulation = soften};
 }
 

@@ -1,0 +1,160 @@
+#include "blind/scores.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/evidence.h"
+#include "effects/list.h"
+
+namespace pendular::blind {
+namespace {
+
+template <typename Wanted>
+std::vector<Verdict> those(const std::vector<Verdict>& verdicts, const Wanted& wanted) {
+  std::vector<Verdict> found;
+  std::copy_if(verdicts.begin(), verdicts.end(), std::back_inserter(found), wanted);
+  return found;
+}
+
+Naming naming(const std::vector<Verdict>& verdicts) {
+  Naming naming;
+  std::vector<double> sizes, logs, briers;
+  for (const auto& verdict : verdicts) {
+    naming.in_set.count(verdict.in_set(verdict.answer));
+    naming.exact.count(verdict.exact());
+    naming.confidently_wrong.count(verdict.confidently_wrong());
+    logs.push_back(log_score(verdict));
+    briers.push_back(brier_score(verdict));
+    if (!verdict.said) continue;
+    sizes.push_back(static_cast<double>(verdict.said->set.size()));
+    if (verdict.said->set.size() == 1) naming.exact_separable.count(verdict.exact());
+  }
+  naming.set_size = mean(sizes), naming.log_score = mean(logs), naming.brier = mean(briers);
+  return naming;
+}
+
+/// Probabilities before any data: a case for which nothing but the priors was said.
+Verdict by_priors(const Verdict& verdict) {
+  const diagnosis::Priors priors;
+  std::vector<std::string> ids;
+  for (const auto& effect : effects::all_effects()) ids.push_back(effect.id);
+  const double effects = static_cast<double>(ids.size());
+  Diagnosed said;
+  said.claims["none"].probability = priors.none;
+  said.claims["unknown"].probability = priors.unknown;
+  for (std::size_t a = 0; a < ids.size(); ++a) {
+    said.claims[ids[a]].probability = (1.0 - priors.none - priors.unknown - priors.pairs) / effects;
+    for (std::size_t b = a + 1; b < ids.size(); ++b)
+      said.claims[in_order(ids[a] + "+" + ids[b])].probability =
+          priors.pairs / (0.5 * effects * (effects - 1.0));
+  }
+  return {verdict.truth, verdict.answer, said, ""};
+}
+
+std::vector<ReliabilityBin> reliability(const std::vector<Verdict>& verdicts) {
+  std::vector<ReliabilityBin> bins;
+  double from = 0.0;
+  for (const double to : {0.3, 0.5, 0.7, 0.9, 1.0}) {
+    ReliabilityBin bin{from, to, 0.0, {}};
+    std::vector<double> said;
+    for (const auto& verdict : verdicts) {
+      const double p = verdict.probability(verdict.top());
+      if (!verdict.said || p < from || (p >= to && to < 1.0)) continue;
+      said.push_back(p);
+      bin.right.count(verdict.exact());
+    }
+    bin.mean_probability = mean(said);
+    bins.push_back(bin);
+    from = to;
+  }
+  return bins;
+}
+
+MagnitudeScore magnitudes(const std::vector<Verdict>& verdicts) {
+  MagnitudeScore found;
+  std::vector<double> errors;
+  for (const auto& verdict : verdicts) {
+    if (!verdict.said || verdict.truth.effects.size() != 1) continue;
+    const auto& [id, theta] = verdict.truth.effects.front();
+    const auto claim = verdict.said->claims.find(id);
+    if (claim == verdict.said->claims.end()) continue;
+    if (claim->second.magnitude)
+      errors.push_back(std::fabs(*claim->second.magnitude - theta) / std::fabs(theta));
+    if (const auto& interval = claim->second.interval_90)
+      found.covered.count(interval->first <= theta && theta <= interval->second);
+  }
+  found.median_relative_error = median(errors);
+  return found;
+}
+
+ShrinkageScore shrinkage(const std::vector<Verdict>& verdicts) {
+  std::vector<double> withheld, retuned, wrong, above;
+  for (const auto& verdict : verdicts) {
+    if (!verdict.said || verdict.truth.effects.empty() || !verdict.said->withheld) continue;
+    withheld.push_back(*verdict.said->withheld);
+    if (verdict.said->wrong_effect) wrong.push_back(*verdict.said->wrong_effect);
+    if (!verdict.said->retuned) continue;
+    retuned.push_back(*verdict.said->retuned);
+    above.push_back(withheld.back() - retuned.back());
+  }
+  return {withheld.size(), median(withheld), median(retuned), median(wrong), median(above)};
+}
+
+void score_unknown(Scores& scores, const std::vector<Verdict>& verdicts) {
+  std::vector<double> outside, inside;
+  for (const auto& verdict : verdicts) {
+    const bool right = verdict.answer == "unknown";
+    (right ? outside : inside).push_back(verdict.probability("unknown"));
+    if (!right) continue;
+    scores.flagged.count(verdict.in_set("unknown") || verdict.exact());
+    scores.misnamed.count(verdict.confidently_wrong());
+  }
+  scores.auroc_unknown = area_under_curve(outside, inside);
+}
+
+}  // namespace
+
+double log_score(const Verdict& verdict) {
+  return -std::log(std::max(kLeastProbability, verdict.probability(verdict.answer)));
+}
+
+double brier_score(const Verdict& verdict) {
+  if (!verdict.said) return 2.0;
+  double sum = std::pow(1.0 - verdict.probability(verdict.answer), 2);
+  for (const auto& [id, claim] : verdict.said->claims)
+    if (id != verdict.answer) sum += claim.probability * claim.probability;
+  return sum;
+}
+
+Scores score(const std::vector<Verdict>& verdicts, bool without_truth) {
+  Scores scores;
+  scores.without_truth = without_truth;
+  scores.cases = verdicts.size();
+  scores.all = naming(verdicts);
+  std::vector<Verdict> priors;
+  for (const auto& verdict : verdicts) {
+    scores.failed += !verdict.said;
+    priors.push_back(by_priors(verdict));
+    if (verdict.said && verdict.said->nearest_signature)
+      scores.nearest_signature.count(*verdict.said->nearest_signature == verdict.answer);
+    if (verdict.truth.stratum != Stratum::none) continue;
+    scores.false_alarms.count(!verdict.in_set("none"));
+    scores.none_not_first.count(!verdict.exact());
+  }
+  for (const auto& verdict : verdicts) {
+    const auto like = [&](const Verdict& other) { return other.truth.stratum == verdict.truth.stratum; };
+    scores.by_stratum[verdict.truth.stratum] = naming(those(verdicts, like));
+    const auto same = [&](const Verdict& other) { return other.answer == verdict.answer; };
+    scores.by_answer[verdict.answer] = naming(those(verdicts, same));
+  }
+  const Naming prior = naming(priors);
+  scores.prior_log_score = prior.log_score, scores.prior_brier = prior.brier;
+  score_unknown(scores, verdicts);
+  scores.reliability = reliability(verdicts);
+  scores.magnitude = magnitudes(verdicts);
+  scores.magnitude_where_named = magnitudes(those(verdicts, [](const Verdict& v) { return v.exact(); }));
+  scores.shrinkage = shrinkage(verdicts);
+  return scores;
+}
+
+}  // namespace pendular::blind

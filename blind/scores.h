@@ -1,0 +1,69 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "blind/proportion.h"
+#include "blind/verdict.h"
+
+namespace pendular::blind {
+
+/// What verdicts come to, for all cases or for one stratum. Cases without a diagnosis count as wrong, with no
+/// probability for the truth.
+struct Naming {
+  Proportion in_set;             ///< the right answer is in the ambiguity set
+  Proportion exact;              ///< it is the most probable
+  Proportion exact_separable;    ///< the same, of cases whose set has one member
+  Proportion confidently_wrong;  ///< something else has a probability above 0.9
+  double set_size = 0.0;         ///< mean, of the cases with a diagnosis
+  double log_score = 0.0;        ///< mean of −ln P(truth), P at least kLeastProbability
+  double brier = 0.0;  ///< mean over cases of Σ (P − truth)² over explanations; 2 without diagnosis
+};
+inline constexpr double kLeastProbability = 1e-6;
+
+/// How often what was said with some probability was right.
+struct ReliabilityBin {
+  double from = 0.0, to = 1.0;
+  double mean_probability = 0.0;  ///< of the most probable explanations in the bin
+  Proportion right;
+};
+
+/// θ of the true effect where one effect of the library was withheld and it has a magnitude in the report.
+struct MagnitudeScore {
+  double median_relative_error = 0.0;
+  Proportion covered;  ///< by the 90 % interval
+};
+
+/// Share of the gap on withheld observations that was closed; medians, of the cases with a library effect
+/// whose report has it. `by` is of the retuned modulus: median of the differences.
+struct ShrinkageScore {
+  std::size_t cases = 0;
+  double withheld = 0.0, retuned = 0.0, wrong_effect = 0.0, above_retuned = 0.0;
+};
+
+struct Scores {
+  bool without_truth = false;
+  std::size_t cases = 0, failed = 0;
+  Naming all;
+  std::map<Stratum, Naming> by_stratum;
+  std::map<std::string, Naming> by_answer;
+  double prior_log_score = 0.0, prior_brier = 0.0;  ///< of the priors alone
+  Proportion nearest_signature;                     ///< exact, where reports name it
+  Proportion false_alarms;                          ///< nothing withheld, and `none` not in the set
+  Proportion none_not_first;                        ///< nothing withheld, and something else first
+  Proportion flagged;   ///< right answer unknown: it is in the set or the most probable
+  Proportion misnamed;  ///< right answer unknown: something else above 0.9
+  double auroc_unknown = 0.0;
+  std::vector<ReliabilityBin> reliability;
+  MagnitudeScore magnitude, magnitude_where_named;
+  ShrinkageScore shrinkage;
+};
+
+Scores score(const std::vector<Verdict>& verdicts, bool without_truth);
+
+/// −ln P(truth) and Brier score of one case.
+double log_score(const Verdict& verdict);
+double brier_score(const Verdict& verdict);
+
+}  // namespace pendular::blind

@@ -1,0 +1,98 @@
+#include "blind/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "blind/mechanism.h"
+#include "effects/list.h"
+#include "small_split.h"
+
+namespace pendular::blind {
+namespace {
+
+Split sealed_split() {
+  return read_split(fs::path(PENDULAR_SOURCE_DIR) / "samples/blind/sealed.toml", std::nullopt);
+}
+
+}  // namespace
+
+TEST(Plan, SealedSplitIsLargeEnoughAndHasEveryEffectAndMechanism) {
+  const auto plans = plan_of(sealed_split());
+  std::map<Stratum, int> strata;
+  std::set<std::size_t> packings;
+  std::set<std::string> effects, mechanisms, names, salts;
+  for (const auto& plan : plans) {
+    ++strata[plan.stratum];
+    packings.insert(plan.packing);
+    names.insert(plan.name), salts.insert(plan.salt);
+    for (const auto& [id, theta] : plan.effects) effects.insert(id);
+    if (!plan.mechanism.empty()) mechanisms.insert(plan.mechanism);
+  }
+  EXPECT_GE(plans.size(), 80u);
+  EXPECT_GE(packings.size(), 4u);
+  EXPECT_EQ(names.size(), plans.size());
+  EXPECT_EQ(salts.size(), plans.size());
+  for (std::size_t k = 0; k < kStrata; ++k) EXPECT_GE(strata[static_cast<Stratum>(k)], 7);
+  EXPECT_EQ(effects.size(), effects::all_effects().size() - 1);  // no polymer is above W*
+  EXPECT_FALSE(effects.contains("funicular_bridges"));
+  EXPECT_EQ(mechanisms.size(), all_mechanisms().size());
+}
+
+TEST(Plan, MagnitudesLieInTheUpperPartOfTheirRanges) {
+  for (const auto& plan : plan_of(sealed_split()))
+    for (const auto& [id, theta] : plan.effects) {
+      const auto& effect = effects::find_effect(id, "test");
+      const double share =
+          theta > 0.0 ? (theta - std::max(0.0, effect.bank_from)) / effect.bank_to : theta / effect.bank_from;
+      EXPECT_GE(share, 0.2) << id;
+      EXPECT_LE(share, 1.0) << id;
+    }
+}
+
+TEST(Plan, NamesTellNothingOfTheStratum) {
+  const auto plans = plan_of(sealed_split());
+  int changes = 0;
+  for (std::size_t k = 1; k < plans.size(); ++k) changes += plans[k].stratum != plans[k - 1].stratum;
+  EXPECT_GT(changes, 40);  // in order of the strata there would be five
+}
+
+TEST(Plan, IsAFunctionOfTheSplitAndItsSeed) {
+  Split split = sealed_split();
+  const auto plans = plan_of(split), again = plan_of(split);
+  split.seed += 1;
+  const auto other = plan_of(split);
+  std::size_t alike = 0;
+  for (std::size_t k = 0; k < plans.size(); ++k) {
+    EXPECT_EQ(plans[k].effects, again[k].effects);
+    EXPECT_EQ(plans[k].offsets, again[k].offsets);
+    EXPECT_EQ(plans[k].salt, again[k].salt);
+    alike += plans[k].salt == other[k].salt || right_answer(plans[k]) == right_answer(other[k]);
+  }
+  EXPECT_LT(alike, plans.size() / 2);
+}
+
+TEST(Plan, WrongBeliefsAreOffByTwoSigmas) {
+  for (const auto& plan : plan_of(sealed_split())) {
+    double farthest = 0.0;
+    for (const auto& [key, offset] : plan.offsets) farthest = std::max(farthest, std::fabs(offset));
+    EXPECT_LE(farthest, 2.0);
+    if (plan.stratum == Stratum::wrong_belief) EXPECT_DOUBLE_EQ(farthest, 2.0);
+  }
+}
+
+TEST(Plan, TheRightAnswerOfAPairIsInTheLibrarysOrder) {
+  CasePlan plan;
+  EXPECT_EQ(right_answer(plan), "none");
+  plan.effects = {{"bead_friction", 0.2}};
+  EXPECT_EQ(right_answer(plan), "bead_friction");
+  plan.effects = {{"bead_friction", 0.2}, {"missing_bridges", 0.1}};
+  EXPECT_EQ(right_answer(plan), "missing_bridges+bead_friction");
+  plan.effects.clear();
+  plan.mechanism = "crack";
+  EXPECT_EQ(right_answer(plan), "unknown");
+}
+
+}  // namespace pendular::blind

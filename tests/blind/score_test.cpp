@@ -1,0 +1,194 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/csv.h"
+#include "base/error.h"
+#include "blind/case_folder.h"
+#include "blind/score_files.h"
+#include "scratch.h"
+
+namespace pendular::blind {
+namespace {
+
+using nlohmann::json;
+using pendular::test::ScratchFolder;
+
+/// A sealed case with its hash, as `blind make` leaves it.
+std::string seal(const fs::path& root, const std::string& name, const std::string& stratum,
+                 const std::string& answer, const json& effects, const std::string& mechanism = "") {
+  json truth = {{"case", name},   {"stratum", stratum}, {"answer", answer},
+                {"law", "paper"}, {"effects", effects}, {"packing", 1}};
+  truth["beliefs"]["contact.friction"] = {{"off_by_sigmas", -2.0}};
+  if (!mechanism.empty()) truth["mechanism"] = {{"id", mechanism}, {"theta", 0.5}};
+  make_folder(root / "sealed");
+  write_text(root / "sealed" / (name + ".json"), truth.dump());
+  return name + "," + sha256_of(root / "sealed" / (name + ".json")) + "\n";
+}
+
+json claim(const std::string& id, double probability, double magnitude = 0.0, double low = 0.0,
+           double high = 0.0) {
+  return {{"id", id}, {"probability", probability}, {"magnitude", magnitude}, {"interval_90", {low, high}}};
+}
+
+void report(const fs::path& folder, const json& hypotheses, const json& set, double withheld = 0.0,
+            double retuned = 0.0) {
+  json diagnosis = {{"hypotheses", hypotheses}, {"ambiguity_set", set}};
+  diagnosis["shrinkage"]["withheld"] = {{"before", 2.0}, {"fraction", withheld}};
+  diagnosis["shrinkage"]["controls"] = {{"modulus_retuned", retuned}, {"wrong_effect", 0.1}};
+  make_folder(folder);
+  write_text(folder / "diagnosis.json", diagnosis.dump());
+}
+
+/// Seven cases of which all scores can be reckoned by hand.
+class Score : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const fs::path root = folder / "split";
+    const json friction = {{{"id", "bead_friction"}, {"theta", 0.2}}};
+    const json missing = {{{"id", "missing_bridges"}, {"theta", 0.1}}};
+    const json both = {{{"id", "missing_bridges"}, {"theta", 0.1}},
+                       {{"id", "bead_friction"}, {"theta", 0.2}}};
+    std::string seals = "case,sha256\n";
+    seals += seal(root, "c1", "library", "missing_bridges", missing);
+    seals += seal(root, "c2", "library", "bead_friction", friction);
+    seals += seal(root, "c3", "none", "none", json::array());
+    seals += seal(root, "c4", "none", "none", json::array());
+    seals += seal(root, "c5", "outside", "unknown", json::array(), "crack");
+    seals += seal(root, "c6", "outside", "unknown", json::array(), "grit");
+    seals += seal(root, "c7", "pair", "missing_bridges+bead_friction", both);
+    write_text(root / "seals.csv", seals);
+    // Right, alone in its set, θ off by a tenth and inside its interval.
+    report(reports / "c1", {claim("missing_bridges", 0.8, 0.11, 0.08, 0.14), claim("none", 0.2)},
+           {"missing_bridges"}, 0.8, 0.3);
+    // In the set but not first; θ off by half and outside its interval.
+    report(reports / "c2",
+           {claim("none", 0.6), claim("bead_friction", 0.3, 0.1, 0.05, 0.15), claim("unknown", 0.1)},
+           {"none", "bead_friction"}, 0.4, 0.2);
+    report(reports / "c3", {claim("none", 0.9), claim("unknown", 0.1)}, {"none"});
+    report(reports / "c4", {claim("platen_tilt", 0.95), claim("none", 0.05)}, {"platen_tilt"});
+    report(reports / "c5", {claim("unknown", 0.7), claim("none", 0.3)}, {"unknown", "none"});
+    report(reports / "c6", {claim("platen_tilt", 0.92), claim("unknown", 0.08)}, {"platen_tilt"});
+    // c7 has no report.
+  }
+  Scores scores() { return score(verdicts(open_seals(folder / "split"), reports), without_truth(reports)); }
+
+  ScratchFolder folder;
+  fs::path reports = folder / "reports";
+};
+
+}  // namespace
+
+TEST_F(Score, CountsNames) {
+  const Scores s = scores();
+  EXPECT_EQ(s.cases, 7u);
+  EXPECT_EQ(s.failed, 1u);
+  EXPECT_EQ(s.all.in_set.hits, 4u);
+  EXPECT_EQ(s.all.in_set.of, 7u);  // the missing report counts
+  EXPECT_EQ(s.all.exact.hits, 3u);
+  EXPECT_EQ(s.all.exact_separable.hits, 2u);  // c1 and c3 of c1, c3, c4, c6
+  EXPECT_EQ(s.all.exact_separable.of, 4u);
+  EXPECT_EQ(s.all.confidently_wrong.hits, 2u);
+  EXPECT_DOUBLE_EQ(s.all.set_size, 8.0 / 6.0);
+  EXPECT_EQ(s.by_stratum.at(Stratum::library).exact.hits, 1u);
+  EXPECT_EQ(s.by_answer.at("unknown").in_set.hits, 1u);
+}
+
+TEST_F(Score, AveragesLogAndBrierScores) {
+  const Scores s = scores();
+  const double logs = std::log(0.8) + std::log(0.3) + std::log(0.9) + std::log(0.05) + std::log(0.7) +
+                      std::log(0.08) + std::log(kLeastProbability);
+  EXPECT_NEAR(s.all.log_score, -logs / 7.0, 1e-12);
+  const double briers = (0.04 + 0.04) + (0.49 + 0.36 + 0.01) + (0.01 + 0.01) + (0.9025 + 0.9025) +
+                        (0.09 + 0.09) + (0.8464 + 0.8464) + 2.0;
+  EXPECT_NEAR(s.all.brier, briers / 7.0, 1e-12);
+  // Priors: none 0.2, unknown 0.15, nineteen effects 0.5, their pairs 0.15.
+  const double prior = 2 * std::log(0.5 / 19) + 2 * std::log(0.2) + 2 * std::log(0.15) + std::log(0.15 / 171);
+  EXPECT_NEAR(s.prior_log_score, -prior / 7.0, 1e-9);
+}
+
+TEST_F(Score, KnowsAlarmsAndTheUnknown) {
+  const Scores s = scores();
+  EXPECT_EQ(s.false_alarms.hits, 1u);
+  EXPECT_EQ(s.false_alarms.of, 2u);
+  EXPECT_EQ(s.flagged.hits, 1u);
+  EXPECT_EQ(s.flagged.of, 2u);
+  EXPECT_EQ(s.misnamed.hits, 1u);
+  // 0.7 and 0.08 against 0, 0.1, 0.1, 0 and the missing one's 0.
+  EXPECT_DOUBLE_EQ(s.auroc_unknown, (5.0 + 3.0) / 10.0);
+}
+
+TEST_F(Score, MeasuresMagnitudesAndShrinkage) {
+  const Scores s = scores();
+  EXPECT_NEAR(s.magnitude.median_relative_error, 0.3, 1e-12);  // of 0.1 and 0.5
+  EXPECT_EQ(s.magnitude.covered.hits, 1u);
+  EXPECT_EQ(s.magnitude.covered.of, 2u);
+  EXPECT_NEAR(s.magnitude_where_named.median_relative_error, 0.1, 1e-12);
+  EXPECT_EQ(s.shrinkage.cases, 2u);
+  EXPECT_NEAR(s.shrinkage.withheld, 0.6, 1e-12);
+  EXPECT_NEAR(s.shrinkage.above_retuned, 0.35, 1e-12);
+}
+
+TEST_F(Score, SortsProbabilitiesIntoBins) {
+  const auto bins = scores().reliability;
+  const auto& last = bins.back();
+  EXPECT_EQ(last.right.of, 3u);  // 0.9, 0.95, 0.92
+  EXPECT_EQ(last.right.hits, 1u);
+  EXPECT_NEAR(last.mean_probability, (0.9 + 0.95 + 0.92) / 3.0, 1e-12);
+}
+
+TEST_F(Score, WithTheTrueEffectLeftOutUnknownIsRight) {
+  mark_without_truth(reports);
+  const Scores s = scores();
+  EXPECT_TRUE(s.without_truth);
+  EXPECT_EQ(s.cases, 3u);  // c1, c2, c7
+  EXPECT_EQ(s.all.exact.hits, 0u);
+  EXPECT_EQ(s.flagged.of, 3u);
+}
+
+TEST_F(Score, PairsAreTheSameInEitherOrder) {
+  report(reports / "c7", {claim("bead_friction+missing_bridges", 1.0)}, {"bead_friction+missing_bridges"});
+  EXPECT_EQ(scores().all.exact.hits, 4u);
+}
+
+TEST_F(Score, ReportsThatCannotBeReadAreFailures) {
+  write_text(reports / "c1" / "diagnosis.json", "{\"hypotheses\": [");
+  write_text(reports / "c3" / "diagnosis.json", "{\"hypotheses\": [{\"id\": 3}]}");
+  const Scores s = scores();
+  EXPECT_EQ(s.failed, 3u);
+  EXPECT_EQ(s.all.exact.hits, 1u);
+}
+
+TEST_F(Score, WritesATableThatCanBeReadBack) {
+  const auto all = verdicts(open_seals(folder / "split"), reports);
+  write_scores(folder / "score", all, score(all, false), {"0.1.0", "pendular blind score", 1, {}});
+  const CsvTable table =
+      read_csv(folder / "score/cases.csv", {"case", "stratum", "p_answer", "exact", "status", "failure"});
+  ASSERT_EQ(table.rows(), 7u);
+  EXPECT_NEAR(table.numbers("p_answer")[1], 0.3, 1e-9);
+  EXPECT_EQ(table.texts("status")[6], "failed");
+  EXPECT_EQ(table.texts("failure")[6], "no diagnosis.json");
+  const json written = json::parse(read_text(folder / "score/score.json"));
+  EXPECT_EQ(written["all"]["exact"]["hits"], 3);
+  EXPECT_NE(read_text(folder / "score/score.md").find("3 of 7, 43 %"), std::string::npos);
+}
+
+TEST_F(Score, ABrokenSealIsAnError) {
+  const fs::path sealed = folder / "split" / "sealed" / "c2.json";
+  write_text(sealed, read_text(sealed) + " ");
+  try {
+    open_seals(folder / "split");
+    FAIL();
+  } catch (const BadInput& error) {
+    EXPECT_NE(std::string(error.what()).find("c2.json"), std::string::npos);
+  }
+  fs::remove(sealed);
+  EXPECT_THROW(open_seals(folder / "split"), BadInput);
+}
+
+TEST_F(Score, ReportsMustBeThere) {
+  EXPECT_THROW(verdicts(open_seals(folder / "split"), folder / "nowhere"), BadInput);
+}
+
+}  // namespace pendular::blind
