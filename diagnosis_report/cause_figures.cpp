@@ -29,8 +29,15 @@ std::vector<bool> suspects(const Diagnosis& d) {
 
 std::vector<std::string> feature_labels(const Diagnosis& d) {
   std::vector<std::string> labels;
-  for (const auto& row : d.gap.rows) labels.push_back(row.observed.observation + ": " + row.observed.name);
+  for (const auto& row : d.gap.rows) labels.push_back(feature_label(row.observed));
   return labels;
+}
+
+std::vector<std::string> feature_names(const Diagnosis& d) {
+  std::vector<std::string> names;
+  for (const auto& row : d.gap.rows)
+    names.push_back(fmt::format("{}: {}", row.observed.observation, row.observed.name));
+  return names;
 }
 
 /// Values of a matrix row by row.
@@ -41,9 +48,11 @@ std::vector<double> row_by_row(const Eigen::MatrixXd& matrix) {
   return values;
 }
 
-Table matrix_table(const std::string& name, const viz::Matrix& matrix, const std::vector<double>& values) {
+/// `columns`: of the matrix, by their whole names.
+Table matrix_table(const std::string& name, const viz::Matrix& matrix,
+                   const std::vector<std::string>& columns, const std::vector<double>& values) {
   Table table{name, {"effect"}, {}};
-  table.columns.insert(table.columns.end(), matrix.columns.begin(), matrix.columns.end());
+  table.columns.insert(table.columns.end(), columns.begin(), columns.end());
   for (std::size_t row = 0; row < matrix.rows.size(); ++row) {
     table.rows.push_back({matrix.rows[row]});
     for (std::size_t k = 0; k < matrix.columns.size(); ++k)
@@ -138,7 +147,7 @@ std::optional<Drawn> signature_figure(const viz::Display& display, const Diagnos
   map.rows = d.effects, map.columns = feature_labels(d);
   map.values = row_by_row(d.signatures);
   map.marked_rows = suspects(d);
-  map.quantity = "change over noise";
+  map.quantity = std::string("change/noise");
   map.limit = kLargestShown;
   return Drawn{
       viz::draw_matrix(display, map),
@@ -146,7 +155,7 @@ std::optional<Drawn> signature_figure(const viz::Display& display, const Diagnos
                   "simulation, over the feature's noise; colours end at {:g}. Bold: the effects that "
                   "cannot be told apart with these observations.",
                   kLargestShown),
-      matrix_table("signatures", map, map.values)};
+      matrix_table("signatures", map, feature_names(d), map.values)};
 }
 
 std::optional<Drawn> separation_figure(const viz::Display& display, const Diagnosis& d) {
@@ -171,7 +180,7 @@ std::optional<Drawn> separation_figure(const viz::Display& display, const Diagno
                   "colours end at {:g}. Framed: below three, not to be told apart here, or in the last "
                   "column not to be seen. The table has the squares.",
                   kLargestShown),
-      matrix_table("separation", map, squared)};
+      matrix_table("separation", map, map.columns, squared)};
 }
 
 std::vector<Drawn> magnitude_figures(const viz::Display& display, const Diagnosis& d) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kShownPair = 0.01;  // probability from which a pair is shown by itself
 
-constexpr std::size_t kLongestName = 20;
+constexpr std::size_t kLongestName = 16;
 
 }  // namespace
 

@@ -142,14 +142,17 @@ Table run_table(const OverlayView& view, const Trace& measured, const std::vecto
   return table;
 }
 
-std::string caption_of(const Overlay& overlay, const std::vector<Spread>& spreads) {
-  const bool many = overlay.simulated.size() >= kMany;
-  return fmt::format(
-      "{} ({}): measured, and simulated as believed{}. Bands: {} of the realisations, with their "
-      "mean. Below: simulated less measured{}.",
-      overlay.observation, to_string(overlay.kind),
-      spreads.size() > 1 ? " and with the best explanation" : "", many ? "5 to 95 %" : "least to largest",
-      overlay.kind == diagnosis::Kind::compression ? ", on first loading" : "");
+std::string caption_of(const Overlay& overlay, const Trace& compared) {
+  std::string text = fmt::format("{} ({}): measured", overlay.observation, to_string(overlay.kind));
+  if (!overlay.simulated.empty()) text += ", simulated as believed";
+  if (!overlay.repaired.empty()) text += ", simulated with the best explanation";
+  text += fmt::format(
+      ". Bands: least to largest of the realisations ({} and more of them: 5 to 95 %), with their mean. "
+      "Below: "
+      "simulated less measured",
+      kMany);
+  if (overlay.kind == diagnosis::Kind::compression) text += ", on first loading";
+  return text + (compared.sd.empty() ? "." : "; grey: the measurement's standard deviation.");
 }
 
 std::vector<Drawn> band_figures(const viz::Display& display, const Overlay& overlay,
@@ -165,7 +168,7 @@ std::vector<Drawn> band_figures(const viz::Display& display, const Overlay& over
       spreads.push_back(
           spread_of(view, overlay.repaired, compared.x, "repaired", "with the best explanation"));
     Drawn figure{viz::draw_bands(display, plot_of(view, measured, compared, spreads)),
-                 caption_of(overlay, spreads),
+                 caption_of(overlay, compared),
                  band_table(view, compared, spreads),
                  {run_table(view, measured, spreads)}};
     figure.data.name = name + view.suffix;
@@ -210,7 +213,7 @@ Drawn number_figure(const viz::Display& display, const Overlay& overlay, const s
   add_runs("as believed", overlay.simulated);
   add_runs("with the best explanation", overlay.repaired);
   const auto [least, most] = std::minmax_element(series.values.begin(), series.values.end());
-  plot.panels = {{overlay.observation, {series}, {}, {}, 0.95 * *least, 1.05 * *most}};
+  plot.panels = {{"bridges per interior bead", {series}, {}, {}, 0.95 * *least, 1.05 * *most}};
   return {viz::draw_rows(display, plot),
           fmt::format("{} ({}): measured with its standard deviation, and the realisations from least to "
                       "largest.",

@@ -28,6 +28,10 @@ struct Extent {
     for (const double v : values)
       if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
   }
+  /// Takes zero in where that is near: below this share of the highest value.
+  void hold_zero(double share) {
+    if (low > 0.0 && low < share * high) low = 0.0;
+  }
   /// With room at both ends, in shares of its length.
   Extent widened(double below, double above) const {
     if (!(high >= low)) return {0.0, 1.0};
@@ -114,7 +118,7 @@ Extent across(const BandPlot& plot) {
   Extent extent;
   extent.hold(plot.measured.x);
   for (const Band& band : plot.bands) extent.hold(band.x);
-  if (extent.low > 0.0 && extent.low < 0.25 * extent.high) extent.low = 0.0;
+  extent.hold_zero(0.25);
   return extent.widened(0.02, 0.03);
 }
 
@@ -126,6 +130,7 @@ Extent up(const BandPlot& plot) {
     extent.hold(band.low), extent.hold(band.high);
     for (const Series& line : band.lines) extent.hold(line.y);
   }
+  extent.hold_zero(0.7);
   const double lines = 1.0 + static_cast<double>(plot.bands.size());
   return extent.widened(0.04, 0.06 + 0.085 * lines);
 }

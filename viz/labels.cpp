@@ -52,7 +52,9 @@ std::string wrapped(const std::string& text, std::size_t most, std::size_t lines
   }
   if (done.size() > lines) {
     done.resize(lines);
-    done.back() = head(done.back(), most - std::min<std::size_t>(most, 4)) + ' ' + kEllipsis;
+    std::string& last = done.back();
+    while (characters(last) + 4 > most && last.find(' ') != std::string::npos) last.resize(last.rfind(' '));
+    last = head(last, most - std::min<std::size_t>(most, 4)) + ' ' + kEllipsis;
   }
   std::string whole = done.front();
   for (std::size_t k = 1; k < done.size(); ++k) whole += '\n' + done[k];

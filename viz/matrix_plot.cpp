@@ -14,7 +14,7 @@ namespace {
 
 // Pixels of the picture.
 constexpr int kWidth = 1600;
-constexpr double kMargin = 24.0, kBarRoom = 210.0, kTitleRoom = 60.0, kLeastBar = 260.0;
+constexpr double kMargin = 24.0, kBarRoom = 210.0, kTitleRoom = 84.0, kLeastBar = 260.0;
 constexpr double kRowType = 24.0, kTallestCell = 52.0, kShortestCell = 34.0, kWidestCell = 130.0;
 constexpr double kValueRoom = 52.0;  // width of a cell from which its value is written into it
 constexpr std::size_t kLongestLabel = 44;
@@ -55,6 +55,7 @@ double end_of_scale(const Matrix& matrix) {
 
 /// As short as a cell needs.
 std::string value_label(double value) {
+  if (std::fabs(value) < 0.05) return "0";
   return std::fabs(value) < 9.95 ? fmt::format("{:.1f}", value) : fmt::format("{:.0f}", value);
 }
 
@@ -138,7 +139,7 @@ Image draw_matrix(const Display& display, const Matrix& matrix) {
                top = at.height - kMargin - kTitleRoom, bottom = std::min(at.bottom, top - kLeastBar);
   add_colour_bar(sheet.renderer(), sheet.canvas(), "", range, map,
                  {right / kWidth, bottom / at.height, (right + 30.0) / kWidth, top / at.height});
-  drawing.write(matrix.quantity, right - 20.0, top + 0.5 * kTitleRoom, {.size = kRowType + 2.0});
+  drawing.write(matrix.quantity, right - 20.0, top + 0.7 * kTitleRoom, {.size = kRowType + 2.0});
   return sheet.draw();
 }
 

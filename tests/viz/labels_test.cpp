@@ -19,6 +19,7 @@ TEST(Labels, KeepBothEndsWhereShortened) {
 TEST(Labels, BreakBetweenWords) {
   EXPECT_EQ(viz::wrapped("twenty single bridges", 14, 3), "twenty single\nbridges");
   EXPECT_EQ(viz::wrapped("one two three four", 7, 2), "one two\nthr ...");
+  EXPECT_EQ(viz::wrapped("one two to be or not to be", 7, 2), "one two\nto ...");
   EXPECT_EQ(viz::wrapped("", 7, 2), "");
 }
 
