@@ -57,7 +57,7 @@ void make_one(const CaseOptions& options) {
   blind::make_case({options.make.common.out}, split, plans[options.number]);
 }
 
-void add_make(CLI::App& blind) {
+void add_blind_make(CLI::App& blind) {
   auto options = std::make_shared<MakeOptions>();
   auto* command = blind.add_subcommand(
       "make",
@@ -93,7 +93,7 @@ void diagnose(DiagnoseOptions options, std::vector<std::string> further) {
                                         failed.front(), failed.size() > 1 ? "; …" : ""));
 }
 
-void add_diagnose(CLI::App& blind) {
+void add_blind_diagnose(CLI::App& blind) {
   auto options = std::make_shared<DiagnoseOptions>();
   auto* command = blind.add_subcommand(
       "diagnose",
@@ -127,7 +127,7 @@ void score(const ScoreOptions& options) {
                   (options.common.out / "score.md").string()));
 }
 
-void add_score(CLI::App& blind) {
+void add_blind_score(CLI::App& blind) {
   auto options = std::make_shared<ScoreOptions>();
   auto* command = blind.add_subcommand(
       "score",
@@ -145,9 +145,9 @@ void add_score(CLI::App& blind) {
 void add_blind(CLI::App& app) {
   auto* command = app.add_subcommand("blind", "Checks of `pendular diagnose` with the effect withheld");
   command->require_subcommand(1);
-  add_make(*command);
-  add_diagnose(*command);
-  add_score(*command);
+  add_blind_make(*command);
+  add_blind_diagnose(*command);
+  add_blind_score(*command);
 }
 
 void add_blind_case(CLI::App& app) {
