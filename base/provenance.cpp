@@ -1,5 +1,9 @@
 #include "base/provenance.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace pendular {
 
 void Provenance::add_input(const fs::path& path) {
@@ -32,10 +36,16 @@ Provenance provenance_from_json(const nlohmann::json& json) {
 }
 
 std::string to_comment(const Provenance& provenance) {
-  std::string text = "# pendular " + provenance.version + "\n# command: " + provenance.command +
-                     "\n# seed: " + std::to_string(provenance.seed) + "\n";
-  for (const auto& input : provenance.inputs)
-    text += "# input: " + input.path + " sha256 " + input.sha256 + "\n";
+  std::string text;
+  const auto add = [&text](std::string line) {
+    // Of a path or an argument: the comment would end there.
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    text += "# " + line + '\n';
+  };
+  add("pendular " + provenance.version);
+  add("command: " + provenance.command);
+  add(fmt::format("seed: {}", provenance.seed));
+  for (const auto& input : provenance.inputs) add("input: " + input.path + " sha256 " + input.sha256);
   return text;
 }
 

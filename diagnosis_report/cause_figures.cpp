@@ -219,7 +219,7 @@ std::optional<Drawn> goodness_figure(const viz::Display& display, const Diagnosi
   RowSeries misfit;
   Table table{"goodness", {"id", "misfit"}, {}};
   for (const auto& e : shown.explanations) {
-    if (e.id == "unknown" || !std::isfinite(e.misfit)) continue;
+    if (e.id == "unknown" || !(e.misfit > 0.0)) continue;  // zero: it was not simulated
     plot.labels.push_back(e.id);
     plot.marked.push_back(in_ambiguity_set(d, e.id));
     misfit.values.push_back(e.misfit);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "diagnosis/judgement.h"
 #include "viz/labels.h"
 
 namespace pendular::diagnosis_report {
@@ -19,13 +20,6 @@ bool is_pair(const std::string& id) {
   return id.find('+') != std::string::npos;
 }
 
-std::vector<std::string> effects_in(const std::string& id) {
-  if (id == "none" || id == "unknown") return {};
-  const std::size_t plus = id.find('+');
-  if (plus == std::string::npos) return {id};
-  return {id.substr(0, plus), id.substr(plus + 1)};
-}
-
 bool in_ambiguity_set(const diagnosis::Diagnosis& diagnosis, const std::string& id) {
   const auto& set = diagnosis.ambiguity_set;
   return std::find(set.begin(), set.end(), id) != set.end();
@@ -34,7 +28,7 @@ bool in_ambiguity_set(const diagnosis::Diagnosis& diagnosis, const std::string& 
 bool is_suspect(const diagnosis::Diagnosis& diagnosis, const std::string& effect) {
   return std::any_of(diagnosis.ambiguity_set.begin(), diagnosis.ambiguity_set.end(),
                      [&](const std::string& id) {
-                       const auto effects = effects_in(id);
+                       const auto effects = diagnosis::effects_in(id);
                        return std::find(effects.begin(), effects.end(), effect) != effects.end();
                      });
 }

@@ -10,9 +10,6 @@ namespace pendular::diagnosis_report {
 /// "a+b".
 bool is_pair(const std::string& id);
 
-/// The effects that an explanation names: none for "none" and "unknown", one, or two.
-std::vector<std::string> effects_in(const std::string& id);
-
 /// Whether an explanation, or an effect by itself, is among those that cannot be told apart.
 bool in_ambiguity_set(const diagnosis::Diagnosis& diagnosis, const std::string& id);
 

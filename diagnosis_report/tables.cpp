@@ -49,9 +49,10 @@ bool is_done(const diagnosis::LedgerRow& row) {
   return row.status == "done";
 }
 
-/// The purpose without its magnitude.
-std::string first_word(const std::string& purpose) {
-  return purpose.substr(0, purpose.find(' '));
+/// A purpose without its magnitudes: what stands before a colon, or else the first word.
+std::string kind_of(const std::string& purpose) {
+  const std::size_t colon = purpose.find(": ");
+  return purpose.substr(0, colon != std::string::npos ? colon : purpose.find(' '));
 }
 
 }  // namespace
@@ -150,8 +151,8 @@ Table ledger_table(const Diagnosis& d) {
 Table ledger_counts(const Diagnosis& d) {
   Table table{"", {"purpose", "runs", "not made"}, {}};
   for (const auto& row : d.ledger) {
-    add_to(table, {first_word(row.purpose)}, 1.0, 1);
-    add_to(table, {first_word(row.purpose)}, is_done(row) ? 0.0 : 1.0, 2);
+    add_to(table, {kind_of(row.purpose)}, 1.0, 1);
+    add_to(table, {kind_of(row.purpose)}, is_done(row) ? 0.0 : 1.0, 2);
   }
   return table;
 }

@@ -14,7 +14,7 @@ struct Matrix {
   std::vector<double> values;          ///< row by row; NaN where there is none
   std::vector<bool> framed = {};       ///< cells with a frame, row by row; empty: none
   std::vector<bool> marked_rows = {};  ///< rows named in bold type; empty: none
-  std::string quantity;                ///< over the colour bar: a few characters
+  std::string quantity = {};           ///< over the colour bar: a few characters
   bool about_zero = true;              ///< colours go both ways from zero; else from zero upwards
   double limit = 0.0;                  ///< value at the end of the colour bar; 0: the largest one
 };

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "base/error.h"
 #include "blind/truth.h"
 #include "packing/statistics.h"
 #include "scratch.h"
@@ -99,7 +100,7 @@ TEST(Mechanism, BridgesSoftInTensionSoftenTheSpecimen) {
 }
 
 TEST(Mechanism, SoftContactsSoften) {
-  EXPECT_LT(with("soft_contacts", 0.02).stress_at(0.009), 0.8 * without(0.02).stress_at(0.009));
+  EXPECT_LT(with("soft_contacts", 0.02).stress_at(0.009), 0.95 * without(0.02).stress_at(0.009));
 }
 
 TEST(Mechanism, GritStiffens) {
@@ -110,8 +111,8 @@ TEST(Mechanism, APlatenThatCoversLessBearsLess) {
   EXPECT_LT(with("platen_overhang", 0.02).stress_at(0.009), 0.9 * without(0.02).stress_at(0.009));
 }
 
-TEST(Mechanism, ASleeveRaisesThePeak) {
-  EXPECT_GT(with("sleeve", 0.1).peak, 1.05 * without(0.1).peak);
+TEST(Mechanism, ASleeveStiffens) {
+  EXPECT_GT(with("sleeve", 0.02).stress_at(0.009), 1.05 * without(0.02).stress_at(0.009));
 }
 
 TEST(Mechanism, ASaturatedCellReadsLess) {

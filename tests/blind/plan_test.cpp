@@ -79,7 +79,9 @@ TEST(Plan, WrongBeliefsAreOffByTwoSigmas) {
     double farthest = 0.0;
     for (const auto& [key, offset] : plan.offsets) farthest = std::max(farthest, std::fabs(offset));
     EXPECT_LE(farthest, 2.0);
-    if (plan.stratum == Stratum::wrong_belief) EXPECT_DOUBLE_EQ(farthest, 2.0);
+    if (plan.stratum == Stratum::wrong_belief) {
+      EXPECT_DOUBLE_EQ(farthest, 2.0);
+    }
   }
 }
 

@@ -148,7 +148,8 @@ TEST_F(Score, WithTheTrueEffectLeftOutUnknownIsRight) {
 }
 
 TEST_F(Score, PairsAreTheSameInEitherOrder) {
-  report(reports / "c7", {claim("bead_friction+missing_bridges", 1.0)}, {"bead_friction+missing_bridges"});
+  report(reports / "c7", json::array({claim("bead_friction+missing_bridges", 1.0)}),
+         {"bead_friction+missing_bridges"});
   EXPECT_EQ(scores().all.exact.hits, 4u);
 }
 

@@ -12,7 +12,7 @@ namespace pendular {
 namespace {
 
 /// Writes what the loaded page is into its title: its pictures, those that did not decode, whether it is
-/// wider than the window, and what it asked the network or the disc for.
+/// wider than the window, and how much it wants from the network or the disc.
 constexpr const char* kProbe = R"(<script>
 addEventListener("load", () => {
   const pictures = [...document.images];
@@ -21,7 +21,8 @@ addEventListener("load", () => {
     broken: pictures.filter(p => !p.complete || p.naturalWidth == 0).length,
     too_wide: document.documentElement.scrollWidth > innerWidth,
     height: document.body.scrollHeight,
-    loaded: performance.getEntriesByType("resource").map(e => e.name).filter(n => !n.startsWith("data:")).length
+    outside: [...document.querySelectorAll("[src], link[href]")]
+      .map(e => e.getAttribute("src") || e.getAttribute("href")).filter(n => !n.startsWith("data:")).length
   }) + "EBORP";
 });
 </script>)";
@@ -77,7 +78,7 @@ TEST(ReportInBrowser, RendersWithoutErrors) {
   ASSERT_TRUE(seen.page.is_object());
   EXPECT_EQ(seen.page["pictures"], 15);
   EXPECT_EQ(seen.page["broken"], 0);
-  EXPECT_EQ(seen.page["loaded"], 0);
+  EXPECT_EQ(seen.page["outside"], 0);
   EXPECT_EQ(seen.page["too_wide"], false);
   EXPECT_GT(seen.page["height"], 5000);
 }
@@ -85,14 +86,15 @@ TEST(ReportInBrowser, RendersWithoutErrors) {
 TEST(ReportInBrowser, SuchAnOpeningSeesErrors) {
   SKIP_WITHOUT_CHROMIUM();
   const test::ScratchFolder scratch;
+  write_text(scratch / "beside.png", "no picture");
   const Seen seen = open_in_browser(
       scratch,
       "<!DOCTYPE html><html><head><title>t</title></head><body><img src=\"data:image/png;base64,AAAA\">"
-      "<img src=\"missing.png\"><div "
+      "<img src=\"beside.png\"><div "
       "style=\"width:3000px\">wide</div><script>nowhere();</script></body></html>");
   ASSERT_TRUE(seen.page.is_object());
   EXPECT_EQ(seen.page["broken"], 2);
-  EXPECT_EQ(seen.page["loaded"], 1);
+  EXPECT_EQ(seen.page["outside"], 1);
   EXPECT_EQ(seen.page["too_wide"], true);
   EXPECT_NE(seen.log.find("nowhere"), std::string::npos);
 }

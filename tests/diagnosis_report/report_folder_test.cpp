@@ -46,7 +46,9 @@ void expect_bands_hold_the_mean(const fs::path& path, const std::string& name) {
              less = table.numbers(name + "_mean_less_measured", true);
   ASSERT_GT(table.rows(), 100u);
   for (std::size_t k = 0; k < table.rows(); ++k) {
-    if (k > 0) EXPECT_GT(strain[k], strain[k - 1]);
+    if (k > 0) {
+      EXPECT_GT(strain[k], strain[k - 1]);
+    }
     EXPECT_LE(low[k], mean[k]);
     EXPECT_LE(mean[k], high[k]);
     EXPECT_NEAR(less[k], mean[k] - measured[k], 1e-6);
