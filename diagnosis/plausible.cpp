@@ -9,7 +9,7 @@ namespace pendular::diagnosis {
 namespace {
 
 // A packing's modulus is some ten times its polymer's; outside these shares of it the unit must be wrong.
-constexpr double kLeastModulus = 1e-2, kLargestModulus = 1e4;
+constexpr double kLeastModulus = 0.1, kLargestModulus = 1e3;
 
 double largest(const std::vector<double>& values) {
   double found = 0.0;

@@ -1,0 +1,147 @@
+#include "diagnosis/diagnose.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/error.h"
+#include "effects/list.h"
+#include "scratch.h"
+#include "toy_runs.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+using pendular::test::ScratchFolder;
+
+constexpr const char* kSample = R"([beads]
+diameter_um = 200
+density_kg_m3 = 2500
+[bridges]
+youngs_modulus_pa = 1.5e6
+poisson_ratio = 0.49
+diameter_um = 74
+gap_um = 2
+[contact]
+friction = 0.5
+[specimen]
+diameter_um = 1500
+height_um = 1500
+volume_fraction = 0.58
+)";
+
+/// Something that the toy stands for, observed and diagnosed with the toy as simulation.
+class Diagnose : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_text(folder / "sample.toml", kSample);
+    truth = read_sample(folder / "sample.toml");
+  }
+
+  void observe_coordination(double z) {
+    write_text(folder / "z.csv", fmt::format("z,z_sigma\n{},0.03\n", z));
+    further += "[[observation]]\nkind = \"coordination\"\nname = \"Z\"\nfile = \"z.csv\"\n";
+  }
+
+  Diagnosis diagnosed() {
+    write_text(folder / "A.csv", nature.curve_text(truth, 999));
+    write_text(folder / "experiment.toml",
+               "[experiment]\nname = \"toy\"\nsample = \"sample.toml\"\n"
+               "[uncertainty]\n\"bridges.youngs_modulus_pa\" = 4.5e4\n"
+               "[[observation]]\nkind = \"compression\"\nname = \"A\"\nfile = \"A.csv\"\n" +
+                   further);
+    const Experiment experiment = read_experiment(folder / "experiment.toml");
+    const fs::path beads = folder / "beads";
+    return diagnose(experiment, plan_bank(experiment, {}, beads), beads, std::ref(simulation));
+  }
+
+  ScratchFolder folder;
+  Sample truth;
+  std::string further;
+  test::ToyRuns simulation{folder / "runs"}, nature{folder / "nature"};
+};
+
+double probability(const Diagnosis& diagnosis, const std::string& id) {
+  for (const auto& e : diagnosis.explanations)
+    if (e.id == id) return e.probability;
+  return -1.0;
+}
+
+}  // namespace
+
+TEST_F(Diagnose, NamesWhatWasWithheldAndClosesTheGap) {
+  truth.effects["missing_bridges"] = 0.12;
+  observe_coordination(test::ToyRuns::coordination(truth));
+  const Diagnosis found = diagnosed();
+  const Explanation& best = found.explanations.front();
+  EXPECT_EQ(best.id, "missing_bridges");
+  // With an effect that acts nowhere it explains as much: those pairs share the rest.
+  EXPECT_GT(best.probability, 0.5);
+  EXPECT_EQ(found.ambiguity_set, std::vector<std::string>{"missing_bridges"});
+  EXPECT_GT(found.set_probability, 0.9);
+  EXPECT_NEAR(best.magnitudes.front().mean, 0.12, 0.015);
+  EXPECT_LT(best.magnitudes.front().interval_90.first, 0.12);
+  EXPECT_GT(best.magnitudes.front().interval_90.second, 0.12);
+  EXPECT_GT(found.fitted.before, 2.0);
+  EXPECT_GT(found.fitted.fraction, 0.7);
+  EXPECT_NE(found.verdict.find("missing_bridges"), std::string::npos);
+}
+
+TEST_F(Diagnose, ListsEveryEffectAndSumsToOne) {
+  const Diagnosis found = diagnosed();
+  double sum = 0.0;
+  for (const auto& e : found.explanations) sum += e.probability;
+  EXPECT_NEAR(sum, 1.0, 1e-9);
+  for (const auto& effect : effects::all_effects())
+    EXPECT_GE(probability(found, effect.id), 0.0) << effect.id;
+  EXPECT_GE(probability(found, "unknown"), 0.0);
+}
+
+TEST_F(Diagnose, SaysNothingIsMissingWhereNothingIs) {
+  observe_coordination(test::ToyRuns::coordination(truth));
+  const Diagnosis found = diagnosed();
+  EXPECT_EQ(found.explanations.front().id, "none");
+  EXPECT_EQ(found.fitted.fraction, 0.0);
+}
+
+TEST_F(Diagnose, KnowsThatItDoesNotKnow) {
+  // Half as stiff with more bridges than there can be: no effect of the library does that.
+  nature.unexplained = 0.5;
+  observe_coordination(8.6);
+  const Diagnosis found = diagnosed();
+  EXPECT_EQ(found.explanations.front().id, "unknown") << found.verdict;
+}
+
+TEST_F(Diagnose, CountsAndTellsFailedRuns) {
+  simulation.failing = {"bead_friction"};
+  const Diagnosis found = diagnosed();
+  const auto failed = std::count_if(found.ledger.begin(), found.ledger.end(),
+                                    [](const LedgerRow& row) { return row.status == "failed"; });
+  EXPECT_GE(failed, 3);
+  EXPECT_NE(found.verdict.find(fmt::format("{} of {} simulations failed", failed, found.ledger.size())),
+            std::string::npos)
+      << found.verdict;
+}
+
+TEST_F(Diagnose, WithoutAnyBaselineThereIsNone) {
+  class Failing {
+   public:
+    std::vector<sweep::RunOutcome> operator()(const std::string&,
+                                              std::span<const sweep::RunRequest> requests) {
+      sweep::RunOutcome failed;
+      failed.status = sweep::RunStatus::failed;
+      failed.message = "it fell apart";
+      return std::vector<sweep::RunOutcome>(requests.size(), failed);
+    }
+  };
+  write_text(folder / "A.csv", nature.curve_text(truth, 999));
+  write_text(folder / "experiment.toml",
+             "[experiment]\nname = \"toy\"\nsample = \"sample.toml\"\n"
+             "[[observation]]\nkind = \"compression\"\nname = \"A\"\nfile = \"A.csv\"\n");
+  const Experiment experiment = read_experiment(folder / "experiment.toml");
+  EXPECT_THROW(diagnose(experiment, plan_bank(experiment, {}, folder / "beads"), folder / "beads", Failing()),
+               ComputationFailed);
+}
+
+}  // namespace pendular::diagnosis
