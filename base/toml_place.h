@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/sample.h"
 
 namespace pendular {
@@ -52,6 +53,21 @@ inline double number_at(const TomlPlace& place) {
   const double value = place.node.value<double>().value();
   if (!std::isfinite(value)) bad_input("{}: found {}, expected a finite number", place.str(), value);
   return value;
+}
+
+inline std::string word_at(const TomlPlace& place) {
+  if (!place.node.is_string())
+    bad_input("{}: found {}, expected a string", place.str(), type_name(place.node));
+  return place.node.value<std::string>().value();
+}
+
+/// A file that is there, named from the folder of the file that names it.
+inline fs::path file_at(const TomlPlace& place) {
+  const std::string given = word_at(place);
+  const fs::path path = fs::path(place.file).parent_path() / given;
+  if (given.empty() || !fs::is_regular_file(path))
+    bad_input("{}: found \"{}\", expected a file; {} is none", place.str(), given, path.string());
+  return path;
 }
 
 /// A value of a sample's key, of any kind that there is.

@@ -38,12 +38,6 @@ std::uint64_t whole_at(const TomlPlace& place) {
   return static_cast<std::uint64_t>(*value);
 }
 
-std::string word_at(const TomlPlace& place) {
-  if (!place.node.is_string())
-    bad_input("{}: found {}, expected a string", place.str(), type_name(place.node));
-  return *place.node.value<std::string>();
-}
-
 [[noreturn]] void unknown_key(const TomlPlace& place, const std::vector<std::string>& known) {
   bad_input("{}: unknown key, the nearest known one is \"{}\"", place.str(), nearest_name(place.name, known));
 }
@@ -67,7 +61,7 @@ void read_head(Split& split, fs::path& sample, const TomlPlace& section) {
     else if (key == "cases")
       split.cases = whole_at(place);
     else
-      sample = fs::path(place.file).parent_path() / word_at(place);
+      sample = file_at(place);
   });
 }
 

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "base/temporary_folder.h"
 #include "cli/command.h"
 #include "cli/run_making.h"
 #include "diagnosis/diagnose.h"
@@ -41,7 +42,9 @@ std::vector<fs::path> inputs_of(const Options& options, const diagnosis::Experim
   return inputs;
 }
 
-void tell_cost(const Options& options, const diagnosis::BankPlan& plan) {
+void tell_cost(const Options& options, const diagnosis::Experiment& experiment) {
+  const TemporaryFolder beads;
+  const auto plan = diagnosis::plan_bank(experiment, bank_options(options), beads.path());
   say(fmt::format(
       "{} tests to simulate, {} runs to learn the effects from, then some {} to check the best explanation",
       plan.conditions.size(), plan.requests.size(), 8 * plan.conditions.size()));
@@ -52,10 +55,9 @@ void run(const Options& options) {
   apply(options.common);
   check(options.making);
   const auto experiment = diagnosis::read_experiment(options.file);
-  const fs::path store = options.making.store_folder(options.common);
-  const fs::path beads = store / "measured";
+  if (options.dry_run) return tell_cost(options, experiment);
+  const fs::path beads = options.making.store_folder(options.common) / "measured";
   const auto plan = diagnosis::plan_bank(experiment, bank_options(options), beads);
-  if (options.dry_run) return tell_cost(options, plan);
   make_folder(options.common.out);
   auto found = diagnosis::diagnose(experiment, plan, beads,
                                    [&](const std::string& name, std::span<const sweep::RunRequest> requests) {

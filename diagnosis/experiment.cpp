@@ -48,20 +48,6 @@ const Form& form_of(Kind kind) {
   return *std::find_if(forms().begin(), forms().end(), [&](const Form& f) { return f.kind == kind; });
 }
 
-std::string word_at(const TomlPlace& place) {
-  if (!place.node.is_string())
-    bad_input("{}: found {}, expected a string", place.str(), type_name(place.node));
-  return place.node.value<std::string>().value();
-}
-
-fs::path file_at(const TomlPlace& place) {
-  const std::string given = word_at(place);
-  const fs::path path = fs::path(place.file).parent_path() / given;
-  if (given.empty() || !fs::is_regular_file(path))
-    bad_input("{}: found \"{}\", expected a file; {} is none", place.str(), given, path.string());
-  return path;
-}
-
 Kind kind_at(const TomlPlace& place) {
   const std::string word = word_at(place);
   std::vector<std::string> names;

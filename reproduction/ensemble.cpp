@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/csv.h"
+#include "base/line_fit.h"
 
 namespace pendular::reproduction {
 namespace {
@@ -89,14 +90,12 @@ double volume_change_at_peak(const viz::RunFolder& run) {
 }
 
 double slope_at_fixed_strain(const viz::RunFolder& run) {
-  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  std::vector<double> strain, stress;
   for (std::size_t k = 0; k < run.strain.size(); ++k) {
     if (run.strain[k] < kSlopeFrom || run.strain[k] > kSlopeTo) continue;
-    const double e = run.strain[k] - kSlopeFrom;
-    n += 1.0, x += e, y += run.stress[k], xx += e * e, xy += e * run.stress[k];
+    strain.push_back(run.strain[k]), stress.push_back(run.stress[k]);
   }
-  const double determinant = n * xx - x * x;
-  return n > 2.0 && determinant > 0.0 ? (n * xy - x * y) / determinant : kNone;
+  return strain.size() > 2 ? line_through(strain, stress).slope : kNone;
 }
 
 std::string in_words(const Spread& spread, double unit, int decimals) {

@@ -32,12 +32,6 @@ Entries entries_of(const toml::table& table, const std::string& prefix = "") {
   return entries;
 }
 
-std::string word_at(const TomlPlace& place) {
-  if (!place.node.is_string())
-    bad_input("{}: found {}, expected a string", place.str(), type_name(place.node));
-  return place.node.value<std::string>().value();
-}
-
 template <typename Integer>
 Integer integer_at(const TomlPlace& place, std::int64_t lowest, std::int64_t highest) {
   const auto value = place.node.is_integer() ? place.node.value<std::int64_t>() : std::nullopt;
@@ -55,14 +49,6 @@ bool choice_at(const TomlPlace& place, const std::string& no, const std::string&
   return word == yes;
 }
 
-fs::path path_at(const TomlPlace& place) {
-  const fs::path given = word_at(place);
-  const fs::path path = fs::path(place.file).parent_path() / given;
-  if (given.empty() || !fs::is_regular_file(path))
-    bad_input("{}: found \"{}\", expected a file; {} is none", place.str(), given.string(), path.string());
-  return path;
-}
-
 /// What [sweep] says; whether it gives a seed for the packing.
 bool read_head(SweepFile& sweep, const toml::table& table, const std::string& file) {
   static const std::vector<std::string> known = {"name",         "sample",   "packing",      "seed",
@@ -74,9 +60,9 @@ bool read_head(SweepFile& sweep, const toml::table& table, const std::string& fi
     if (name == "name") {
       sweep.name = word_at(place);
     } else if (name == "sample") {
-      sweep.sample = path_at(place);
+      sweep.sample = file_at(place);
     } else if (name == "packing") {
-      sweep.packing = path_at(place);
+      sweep.packing = file_at(place);
     } else if (name == "seed") {
       sweep.seed = integer_at<std::uint64_t>(place, 0, kLargest);
     } else if (name == "realisations") {

@@ -16,7 +16,7 @@ namespace {
 Observation curve(double noise, std::uint64_t seed, bool sigma_given) {
   Observation observation;
   observation.kind = Kind::compression;
-  observation.name = fmt::format("curve");
+  observation.name = "curve";
   for (std::uint64_t k = 0; k <= 300; ++k) {
     const double strain = 0.08 * static_cast<double>(k) / 300.0;
     const double stress = 1.5e6 * std::pow(std::sin(M_PI * std::min(strain, 0.07) / 0.14), 2) *
