@@ -63,7 +63,8 @@ void read_shrinkage(Diagnosed& said, const json& shrinkage) {
 std::string farthest_belief(const json& truth) {
   std::string key;
   double farthest = 0.0;
-  for (const auto& [name, belief] : truth.value("beliefs", json::object()).items())
+  const json beliefs = truth.value("beliefs", json::object());  // items() does not keep it alive
+  for (const auto& [name, belief] : beliefs.items())
     if (const double off = belief.at("off_by_sigmas").get<double>(); std::fabs(off) > std::fabs(farthest))
       key = name, farthest = off;
   return key.empty() ? "" : fmt::format("{} {:+.2g} sigma", key, farthest);

@@ -17,7 +17,7 @@ constexpr double kLongestStrain = 0.5;          // that a sample may ask for
 constexpr double kLonger = 1.15, kToe = 0.005;  // room beyond the observed strain
 constexpr double kSameUnloading = 1e-3;         // strains nearer than this are one unloading
 // Courses are rounded to these steps, so that repeated measurements of a specimen share their runs.
-constexpr double kStrainStep = 5e-3, kUnloadingStep = 1e-3;
+constexpr double kStrainStep = 5e-3, kUnloadingStep = 2.5e-3;
 constexpr double kFrames = 24.0;            // of a run that answers displacements
 constexpr double kQuasiStatic = 1e-4;       // speed in model units below which inertia does not show
 constexpr double kRelaxationStrain = 0.01;  // of the base sample, in its polymer's relaxation time

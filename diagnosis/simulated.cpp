@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "base/csv.h"
@@ -101,14 +102,27 @@ double magnitude(const Sample& sample, const std::string& effect) {
   return found == sample.effects.end() ? 0.0 : found->second;
 }
 
-/// What a stated stiffness is over that by finite elements.
-BondStiffness stated_over_finite_elements(const Sample& sample) {
-  Sample unstated = sample;
-  unstated.bridges.normal_stiffness = unstated.bridges.tangential_stiffness = std::nullopt;
-  if (!sample.bridges.normal_stiffness) return {1.0, 1.0, 1.0, 1.0};
-  const BondStiffness elements = bond_stiffness(unstated);
-  return {*sample.bridges.normal_stiffness / elements.normal,
-          *sample.bridges.tangential_stiffness / elements.tangential, 1.0, 1.0};
+/// Stiffness of bridges of a polymer of one pascal. Kept, because the runs of a diagnosis differ in E_p at
+/// most, and all ask for the same bridges.
+std::vector<BondStiffness> stiffness_per_pascal(const std::vector<BridgeBody>& bodies, double poisson_ratio) {
+  static std::mutex guard;
+  static std::map<std::vector<double>, std::vector<BondStiffness>> kept;
+  std::vector<double> key = {poisson_ratio};
+  for (const auto& body : bodies)
+    key.insert(key.end(), {body.neck_diameter, body.gap, body.diameter_i, body.diameter_j});
+  const std::lock_guard lock(guard);
+  auto& found = kept[key];
+  if (found.empty()) found = bridge_stiffnesses(bodies, {1.0, poisson_ratio}).bonds;
+  return found;
+}
+
+/// What normal and tangential stiffness are over those by finite elements: one where none is stated.
+std::pair<double, double> stated_over_finite_elements(const Sample& sample) {
+  const auto& bridges = sample.bridges;
+  if (!bridges.normal_stiffness) return {1.0, 1.0};
+  const BondStiffness mean = stiffness_per_pascal({mean_bridge(sample)}, bridges.poisson_ratio).front();
+  return {*bridges.normal_stiffness / (bridges.youngs_modulus * mean.normal),
+          *bridges.tangential_stiffness / (bridges.youngs_modulus * mean.tangential)};
 }
 
 Columns tested_bridges(const Observation& observation, const Sample& sample) {
@@ -116,12 +130,12 @@ Columns tested_bridges(const Observation& observation, const Sample& sample) {
   std::vector<BridgeBody> bodies;
   for (std::size_t k = 0; k < d.size(); ++k)
     bodies.push_back({d[k] / kUm, sample.bridges.gap, diameter[k] / kUm, diameter[k] / kUm});
-  const auto found = bridge_stiffnesses(bodies, polymer_of(sample)).bonds;
-  const BondStiffness stated = stated_over_finite_elements(sample);
+  const auto [normal, tangential] = stated_over_finite_elements(sample);
+  const double modulus = sample.bridges.youngs_modulus;
   Columns columns = {{"d_um", d}, {"D_um", diameter}};
-  for (const auto& bond : found) {
-    columns["kn_n_per_m"].push_back(stated.normal * bond.normal);
-    columns["kt_n_per_m"].push_back(stated.tangential * bond.tangential);
+  for (const auto& bond : stiffness_per_pascal(bodies, sample.bridges.poisson_ratio)) {
+    columns["kn_n_per_m"].push_back(normal * modulus * bond.normal);
+    columns["kt_n_per_m"].push_back(tangential * modulus * bond.tangential);
   }
   return columns;
 }

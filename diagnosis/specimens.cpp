@@ -9,6 +9,7 @@
 #include "packing/bridges.h"
 #include "packing/statistics.h"
 #include "packing/tables.h"
+#include "packing/touching.h"
 #include "packing/vtp.h"
 
 namespace pendular::diagnosis {
@@ -32,13 +33,14 @@ void check_beads_of(const Condition& condition, const std::vector<Bead>& beads) 
   check("a specimen height", held.height, sample.specimen.height);
 }
 
-/// Another measurement of the same beads.
+/// Another measurement of the same beads: it has the errors of both.
 void move_beads(std::vector<Bead>& beads, std::uint64_t seed) {
   for (std::size_t k = 0; k < beads.size(); ++k) {
     for (int axis = 0; axis < 3; ++axis)
       beads[k].centre[axis] +=
           beads[k].sigma_centre * random_normal(seed, 4 * k + static_cast<std::size_t>(axis));
     beads[k].diameter += beads[k].sigma_diameter * random_normal(seed, 4 * k + 3);
+    beads[k].sigma_centre *= M_SQRT2, beads[k].sigma_diameter *= M_SQRT2;
   }
 }
 
@@ -48,6 +50,7 @@ Packing measured_packing(const Condition& condition, int member) {
   packing.beads = read_beads(condition.beads);
   check_beads_of(condition, packing.beads);
   if (member > 1 && member < kFirstFresh) move_beads(packing.beads, static_cast<std::uint64_t>(member));
+  packing.beads = closed_contacts(std::move(packing.beads));
   packing.specimen = specimen_around(packing.beads, sample.specimen.diameter, sample.specimen.height);
   flag_boundary(packing);
   packing.bridges = candidate_bridges(packing.beads, sample.bridges.cutoff * sample.beads.diameter);
@@ -65,8 +68,8 @@ sweep::PackingSource beads_of_member(const Condition& condition, int member, con
   const Packing packing = measured_packing(condition, member);
   const auto& s = condition.sample;
   const std::string name =
-      sha256(fmt::format("{} {} {} {} {} {}", sha256_of(condition.beads), member, s.specimen.diameter,
-                         s.specimen.height, s.bridges.cutoff, s.beads.diameter));
+      sha256(fmt::format("touching {} {} {} {} {} {}", sha256_of(condition.beads), member,
+                         s.specimen.diameter, s.specimen.height, s.bridges.cutoff, s.beads.diameter));
   const fs::path path = folder / (name.substr(0, 16) + ".vtp");
   make_folder(folder);
   if (!fs::exists(path)) write_packing(path, packing);
