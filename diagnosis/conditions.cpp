@@ -46,7 +46,9 @@ std::string without_course(Sample sample) {
 
 std::vector<double> rounded(std::vector<double> strains) {
   for (double& strain : strains) strain = kUnloadingStep * std::round(strain / kUnloadingStep);
-  return strains;
+  std::vector<double> once;
+  add_unloadings(once, strains);
+  return once;
 }
 
 /// Beads as measured are used as they are; nothing is shown that no observation asks for.

@@ -16,6 +16,7 @@ namespace {
 constexpr int kPoints = 150;              // of a smoothed envelope
 constexpr double kWindow = 1.0 / 50.0;    // half width of the lines that smooth, over the range
 constexpr double kLeastUnloading = 2e-3;  // strain
+constexpr double kUnloaded = 0.25;        // of the stress at the turn
 
 /// The part of a curve that reaches strains for the first time.
 Curve envelope_of(const Curve& curve, double last_strain) {
@@ -135,7 +136,10 @@ std::vector<Loop> loops_of(const Curve& curve, double last_strain) {
       if (curve.strain[end] < curve.strain[bottom]) bottom = end;
       ++end;
     }
-    if (curve.strain[top] - curve.strain[bottom] >= kLeastUnloading) loops.push_back({top, bottom, end});
+    // Where strain is read with a compliant machine it also jumps back when the specimen fails.
+    const bool long_enough = curve.strain[top] - curve.strain[bottom] >= kLeastUnloading;
+    if (long_enough && curve.stress[bottom] <= kUnloaded * curve.stress[top])
+      loops.push_back({top, bottom, end});
     k = end;
     if (end < curve.strain.size()) top = end;
   }

@@ -11,6 +11,8 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr int kDegree = 2;
+constexpr double kFitted = 0.1;                       // of a residual that the fit leaves no room for
+constexpr double kOutlier = 2.5, kOfMedian = 1.4826;  // of a normal's standard deviation
 constexpr double kOfTheFit = 2.0 / 3.0;  // parameters over runs of an effect: the fit's own variance
 
 /// Columns that an id has in the design: powers of θ over its largest |θ|, which keeps them alike in size.
@@ -66,6 +68,25 @@ std::vector<Eigen::Index> showing(const std::vector<DesignRun>& runs, Eigen::Ind
   return rows;
 }
 
+/// Residuals, those drawn in that stand out: a few runs that a polynomial cannot follow (an effect at its
+/// largest) say nothing of the scatter of the others.
+Eigen::VectorXd without_outliers(Eigen::VectorXd left, const Eigen::MatrixXd& matrix,
+                                 const Eigen::MatrixXd& inverse) {
+  std::vector<double> sizes;
+  Eigen::VectorXd expected(left.size());  // standard deviation over that of the scatter
+  for (Eigen::Index r = 0; r < left.size(); ++r) {
+    expected[r] = std::sqrt(std::max(0.0, 1.0 - matrix.row(r).dot(inverse.col(r))));
+    if (expected[r] > kFitted) sizes.push_back(std::fabs(left[r]) / expected[r]);
+  }
+  if (sizes.empty()) return left;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const double most = kOutlier * kOfMedian * *middle;
+  for (Eigen::Index r = 0; r < left.size(); ++r)
+    left[r] = std::clamp(left[r], -most * expected[r], most * expected[r]);
+  return left;
+}
+
 }  // namespace
 
 const Signature* Responses::find(const std::string& id) const {
@@ -105,7 +126,7 @@ Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index feature
         signature.powers[static_cast<std::size_t>(n)][f] =
             found[powers.first + n] / std::pow(powers.scale, n + 1);
     }
-    const Eigen::VectorXd left = values - matrix * found;
+    const Eigen::VectorXd left = without_outliers(values - matrix * found, matrix, solver.pseudoInverse());
     for (std::size_t r = 0; r < rows.size(); ++r) residuals(rows[r], f) = left[static_cast<Eigen::Index>(r)];
     responses.freedom += static_cast<double>(values.size() - solver.rank()) / static_cast<double>(features);
   }

@@ -14,13 +14,20 @@ namespace {
 constexpr int kGridOfOne = 121, kGridOfTwo = 31;
 constexpr double kUnknownSigmas[] = {1.5, 3.0, 6.0};
 
+// An effect's response is known to this share of itself: which bridges are missing is another matter than how
+// many, and a polynomial through three magnitudes is not the effect. Two effects do not quite add.
+constexpr double kResponse = 0.1, kTogether = 0.15;
+
 /// Features in units of their noise, believed inputs included, and the likelihood there.
 class Whitened {
  public:
   explicit Whitened(const Gap& gap)
-      : factor_(gap.covariance + gap.believed * gap.believed.transpose()), freedom_(gap.freedom) {
-    values_ = whiten(gap.values);
-    for (Eigen::Index k = 0; k < values_.size(); ++k) log_volume_ += std::log(factor_.matrixL()(k, k));
+      : covariance_(gap.covariance + gap.believed * gap.believed.transpose()),
+        factor_(covariance_),
+        freedom_(gap.freedom),
+        raw_(gap.values) {
+    values_ = whiten(raw_);
+    log_volume_ = log_volume_of(factor_);
   }
 
   Eigen::VectorXd whiten(const Eigen::VectorXd& v) const { return factor_.matrixL().solve(v); }
@@ -29,17 +36,39 @@ class Whitened {
 
   /// Of a residual of this squared length, the noise's standard deviation being `widened`.
   double log_likelihood(double squared, double widened = 1.0) const {
-    const double p = static_cast<double>(size()), scaled = squared / (widened * widened);
-    const double volume = -log_volume_ - p * std::log(widened);
-    if (freedom_ <= 0.0) return volume - 0.5 * scaled - 0.5 * p * std::log(2.0 * M_PI);
-    return volume + std::lgamma(0.5 * (freedom_ + p)) - std::lgamma(0.5 * freedom_) -
-           0.5 * p * std::log(M_PI * freedom_) - 0.5 * (freedom_ + p) * std::log1p(scaled / freedom_);
+    return density(squared / (widened * widened),
+                   log_volume_ + static_cast<double>(size()) * std::log(widened));
+  }
+
+  struct Fit {
+    double log_likelihood = 0.0, misfit = 0.0;
+  };
+
+  /// Of what a response leaves, where the response has these variances besides the noise.
+  Fit fit(const Eigen::VectorXd& response, const Eigen::VectorXd& variance) const {
+    Eigen::MatrixXd wider = covariance_;
+    wider.diagonal() += variance;
+    const Eigen::LLT<Eigen::MatrixXd> factor(wider);
+    const double misfit = factor.matrixL().solve(raw_ - response).squaredNorm();
+    return {density(misfit, log_volume_of(factor)), misfit};
   }
 
  private:
+  static double log_volume_of(const Eigen::LLT<Eigen::MatrixXd>& factor) {
+    return factor.matrixLLT().diagonal().array().log().sum();
+  }
+
+  double density(double squared, double log_volume) const {
+    const double p = static_cast<double>(size());
+    if (freedom_ <= 0.0) return -log_volume - 0.5 * squared - 0.5 * p * std::log(2.0 * M_PI);
+    return -log_volume + std::lgamma(0.5 * (freedom_ + p)) - std::lgamma(0.5 * freedom_) -
+           0.5 * p * std::log(M_PI * freedom_) - 0.5 * (freedom_ + p) * std::log1p(squared / freedom_);
+  }
+
+  Eigen::MatrixXd covariance_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
   double freedom_;
-  Eigen::VectorXd values_;
+  Eigen::VectorXd raw_, values_;
   double log_volume_ = 0.0;
 };
 
@@ -51,20 +80,21 @@ double log_sum(const std::vector<double>& terms) {
   return largest + std::log(sum);
 }
 
-/// A signature on a grid of magnitudes: whitened responses, and the prior's weights.
+/// A signature on a grid of magnitudes: its responses, and the prior's weights.
 struct Grid {
   std::vector<double> theta, log_prior;
   std::vector<Eigen::VectorXd> response;
 };
 
-Grid grid_of(const Signature& signature, const Whitened& space, int points) {
+Grid grid_of(const Signature& signature, int points) {
   Grid grid;
   for (int k = 0; k < points; ++k) {
     const double theta =
         signature.lowest + (signature.highest - signature.lowest) * (k + 0.5) / static_cast<double>(points);
     grid.theta.push_back(theta);
-    grid.log_prior.push_back(-0.5 * std::pow(theta / signature.scale, 2));
-    grid.response.push_back(space.whiten(signature.at(theta)));
+    const bool absent = std::fabs(theta) < signature.least;
+    grid.log_prior.push_back(absent ? -std::numeric_limits<double>::infinity() : 0.0);
+    grid.response.push_back(signature.at(theta));
   }
   const double total = log_sum(grid.log_prior);
   for (double& log_prior : grid.log_prior) log_prior -= total;
@@ -104,13 +134,13 @@ Hypothesis unknown(const Whitened& space) {
 }
 
 Hypothesis single(const Signature& signature, const Whitened& space) {
-  const Grid grid = grid_of(signature, space, kGridOfOne);
+  const Grid grid = grid_of(signature, kGridOfOne);
   Hypothesis found{signature.id, 0.0, 0.0, {}, std::numeric_limits<double>::infinity()};
   std::vector<double> weight;
   for (std::size_t k = 0; k < grid.theta.size(); ++k) {
-    const double misfit = (space.values() - grid.response[k]).squaredNorm();
-    found.misfit = std::min(found.misfit, misfit);
-    weight.push_back(grid.log_prior[k] + space.log_likelihood(misfit));
+    const auto fit = space.fit(grid.response[k], kResponse * kResponse * grid.response[k].cwiseAbs2());
+    if (std::isfinite(grid.log_prior[k])) found.misfit = std::min(found.misfit, fit.misfit);
+    weight.push_back(grid.log_prior[k] + fit.log_likelihood);
   }
   found.log_evidence = log_sum(weight);
   found.magnitudes = {magnitude_of(grid, weight)};
@@ -121,12 +151,15 @@ Hypothesis pair(const std::string& id, const Grid& a, const Grid& b, const White
   Hypothesis found{id, 0.0, 0.0, {}, std::numeric_limits<double>::infinity()};
   std::vector<std::vector<double>> of_a(a.theta.size()), of_b(b.theta.size());
   std::vector<double> all;
+  constexpr double kEach = kResponse * kResponse, kBoth = kTogether * kTogether;
   for (std::size_t k = 0; k < a.theta.size(); ++k) {
-    const Eigen::VectorXd left = space.values() - a.response[k];
     for (std::size_t l = 0; l < b.theta.size(); ++l) {
-      const double misfit = (left - b.response[l]).squaredNorm();
-      found.misfit = std::min(found.misfit, misfit);
-      all.push_back(a.log_prior[k] + b.log_prior[l] + space.log_likelihood(misfit));
+      const double log_prior = a.log_prior[k] + b.log_prior[l];
+      const Eigen::VectorXd &one = a.response[k], &other = b.response[l];
+      const auto fit = space.fit(one + other, kEach * (one.cwiseAbs2() + other.cwiseAbs2()) +
+                                                  kBoth * one.cwiseProduct(other).cwiseAbs());
+      if (std::isfinite(log_prior)) found.misfit = std::min(found.misfit, fit.misfit);
+      all.push_back(log_prior + fit.log_likelihood);
       of_a[k].push_back(all.back());
       of_b[l].push_back(all.back());
     }
@@ -162,7 +195,7 @@ std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& sign
   std::vector<Grid> grids;
   for (const auto& signature : signatures) {
     all.push_back(single(signature, space));
-    grids.push_back(grid_of(signature, space, kGridOfTwo));
+    grids.push_back(grid_of(signature, kGridOfTwo));
   }
   for (std::size_t a = 0; a < signatures.size(); ++a)
     for (std::size_t b = a + 1; b < signatures.size(); ++b)
@@ -183,7 +216,7 @@ Eigen::MatrixXd isolability(const Gap& gap, const std::vector<Signature>& signat
   const auto size = static_cast<Eigen::Index>(signatures.size());
   Eigen::MatrixXd distance = Eigen::MatrixXd::Zero(size, size + 1);
   std::vector<Grid> grids;
-  for (const auto& signature : signatures) grids.push_back(grid_of(signature, space, kGridOfOne));
+  for (const auto& signature : signatures) grids.push_back(grid_of(signature, kGridOfOne));
   for (Eigen::Index a = 0; a < size; ++a) {
     const Eigen::VectorXd here = space.whiten(signatures[a].at(signatures[a].scale));
     distance(a, size) = here.squaredNorm();
@@ -191,7 +224,7 @@ Eigen::MatrixXd isolability(const Gap& gap, const std::vector<Signature>& signat
       if (a == b) continue;
       distance(a, b) = distance(a, size);
       for (const auto& there : grids[b].response)
-        distance(a, b) = std::min(distance(a, b), (here - there).squaredNorm());
+        distance(a, b) = std::min(distance(a, b), (here - space.whiten(there)).squaredNorm());
     }
   }
   return distance;

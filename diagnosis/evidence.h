@@ -13,7 +13,8 @@ struct Signature {
   std::string id;
   std::vector<Eigen::VectorXd> powers;
   double lowest = 0.0, highest = 0.0;  ///< of θ
-  double scale = 0.0;                  ///< sd of θ a priori, about zero, within its range
+  double scale = 0.0;                  ///< a usual |θ|
+  double least = 0.0;                  ///< |θ| below which the effect counts as absent
 
   Eigen::VectorXd at(double theta) const {
     Eigen::VectorXd sum = theta * powers.back();  // Horner's scheme
@@ -55,8 +56,9 @@ struct Hypothesis {
 /// Believed inputs float within their uncertainties (their responses are part of the covariance), so that an
 /// effect earns credit only for what they cannot absorb. The likelihood is the multivariate t of Sellentin &
 /// Heavens (2016, MNRAS 456, L132) where the covariance was estimated. Magnitudes are integrated over on a
-/// grid; the prior is a normal about zero with the signature's scale, cut to its range. `unknown` is a
-/// residual without direction: in units of the noise, of 1.5, 3 or 6 standard deviations per feature.
+/// grid; a priori all in the signature's range are alike, those below its least one aside. A response is
+/// taken to be known to a tenth of itself, and two of them to add to 0.15 of their geometric mean. `unknown`
+/// is a residual without direction: in units of the noise, of 1.5, 3 or 6 standard deviations per feature.
 std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& signatures,
                               const Priors& priors = {});
 

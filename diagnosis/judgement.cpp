@@ -103,7 +103,8 @@ bool contains(const std::string& larger, const std::string& smaller) {
 }
 
 /// Explanations, best first, until they hold the wanted probability; pairs that only add to one that is in
-/// count for it. Then single effects that cannot be told from the best one.
+/// count for it. Then single effects that cannot be told from the best one; and `unknown`, where even that
+/// fits badly.
 void set_ambiguity(const Problem& problem, const std::vector<Hypothesis>& hypotheses, const Rules& rules,
                    Diagnosis& diagnosis) {
   auto& set = diagnosis.ambiguity_set;
@@ -131,6 +132,7 @@ void set_ambiguity(const Problem& problem, const std::vector<Hypothesis>& hypoth
         break;
       }
   }
+  if (diagnosis.goodness < rules.poor_fit && !is_in("unknown")) set.push_back("unknown");
   for (const auto& h : hypotheses)
     if (is_in(h.id) ||
         std::any_of(set.begin(), set.end(), [&](const auto& id) { return contains(h.id, id); }))
@@ -251,10 +253,10 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   set_signatures(problem, diagnosis);
   const auto hypotheses = weigh(problem.gap, problem.signatures, rules.priors);
   set_explanations(problem, hypotheses, rules, plan, diagnosis);
-  set_ambiguity(problem, hypotheses, rules, diagnosis);
   const Hypothesis& best = hypotheses.front();
   diagnosis.goodness = goodness_of(best.misfit, static_cast<Eigen::Index>(problem.observed.features.size()),
                                    problem.gap.freedom);
+  set_ambiguity(problem, hypotheses, rules, diagnosis);
   set_groups(problem, experiment, diagnosis);
   set_pulls(problem, fitted_changes(problem, effects_in(best.id), all_features(problem)), experiment,
             diagnosis);

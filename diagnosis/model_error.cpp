@@ -6,25 +6,25 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr double kOther = 0.05, kOtherDifference = 0.03;
-constexpr double kSharedStress = 0.025;
+constexpr double kSharedStress = 0.02;
 
 const std::map<std::string, double>& errors() {
   static const std::map<std::string, double> all = {
-      {"toe_strain", 2e-3},         {"toe_roundness", 0.15},
-      {"early_modulus", 0.07},      {"linear_modulus", 0.025},
-      {"linear_limit", 4e-3},       {"peak_strain", 4e-3},
-      {"peak_stress", 0.03},        {"softening", 0.12},
-      {"unloading_modulus", 0.04},  {"residual_strain", 2e-3},
-      {"loop_area", 0.15},          {"lateral_ratio", 0.03},
-      {"late_lateral_ratio", 0.08}, {"modulus_level", 0.025},
+      {"toe_strain", 1e-3},         {"toe_roundness", 0.1},
+      {"early_modulus", 0.04},      {"linear_modulus", 0.015},
+      {"linear_limit", 2.5e-3},     {"peak_strain", 2.5e-3},
+      {"peak_stress", 0.02},        {"softening", 0.1},
+      {"unloading_modulus", 0.02},  {"residual_strain", 1e-3},
+      {"loop_area", 0.1},           {"lateral_ratio", 0.02},
+      {"late_lateral_ratio", 0.06}, {"modulus_level", 0.02},
       {"modulus_exponent", 0.03},   {"modulus_beyond_funicular", 0.03},
       {"kn_level", 0.02},           {"kt_level", 0.02},
       {"kn_exponent", 0.05},        {"kt_exponent", 0.05},
-      {"diameter_mean", 0.01},      {"diameter_spread", 0.01},
-      {"gap_mean_um", 0.5},         {"coordination", 0.01},
+      {"diameter_mean", 0.005},     {"diameter_spread", 0.005},
+      {"gap_mean_um", 0.3},         {"coordination", 0.01},
       {"bulk_strain_share", 0.02},  {"radial_share", 0.03},
       {"tilt_share", 0.02},         {"wandering", 0.05},
-      {"breaks_at_half", 0.5},      {"breaks_at_end", 0.25}};
+      {"breaks_at_half", 0.4},      {"breaks_at_end", 0.2}};
   return all;
 }
 

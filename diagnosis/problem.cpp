@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostFeatures = 20;
 constexpr double kShown = 0.8;                   // of runs that must show a feature
 constexpr double kBeyond = 1.3;                  // how far beyond its bank an effect may go
-constexpr double kScale = 0.5;                   // of a magnitude a priori, over the bank's largest
+constexpr double kScale = 0.5, kLeast = 0.15;    // usual and least magnitudes, over the bank's largest
 constexpr int kReadLevels = 6, kReadDegree = 4;  // of effects that only change what instruments read
 
 std::string label(const ObservedFeatures& observed, std::size_t k) {
@@ -118,7 +118,8 @@ class Learner {
       Signature signature = learnt ? *learnt : read_signature(effect);
       signature.lowest = std::max(effect.lowest, kBeyond * effect.bank_from);
       signature.highest = std::min(effect.highest, kBeyond * effect.bank_to);
-      signature.scale = kScale * std::max(std::fabs(effect.bank_from), std::fabs(effect.bank_to));
+      const double largest = std::max(std::fabs(effect.bank_from), std::fabs(effect.bank_to));
+      signature.scale = kScale * largest, signature.least = kLeast * largest;
       problem_.signatures.push_back(std::move(signature));
     }
   }

@@ -44,7 +44,7 @@ double probability(const std::vector<Hypothesis>& all, const std::string& id) {
 }
 
 TEST(Evidence, OfOneFeatureIsTheIntegralInClosedForm) {
-  // One feature, one effect with a wide normal prior: evidence of a normal of variance 1 + (scale·slope)².
+  // One feature of value 3, one effect of slope 2, all θ from −8 to 8 alike: ∫ N(3; 2θ, 1) dθ / 16 = 1/32.
   Signature s;
   s.id = "a";
   s.powers = {Eigen::VectorXd::Constant(1, 2.0)};
@@ -58,13 +58,22 @@ TEST(Evidence, OfOneFeatureIsTheIntegralInClosedForm) {
     if (h.id == "none") {
       EXPECT_NEAR(h.log_evidence, normal(3.0, 1.0), 1e-12);
     } else if (h.id == "a") {
-      EXPECT_NEAR(h.log_evidence, normal(3.0, 5.0), 1e-3);
-      // Posterior of θ: normal with mean 2·3/5 and variance 1/5.
-      EXPECT_NEAR(h.magnitudes[0].mean, 1.2, 1e-3);
-      EXPECT_NEAR(h.magnitudes[0].interval_90.first, 1.2 - 1.645 * std::sqrt(0.2), 5e-3);
-      EXPECT_NEAR(h.magnitudes[0].interval_90.second, 1.2 + 1.645 * std::sqrt(0.2), 5e-3);
+      EXPECT_NEAR(h.log_evidence, -std::log(32.0), 1e-3);
+      // Posterior of θ: normal with mean 3/2 and standard deviation 1/2.
+      EXPECT_NEAR(h.magnitudes[0].mean, 1.5, 1e-3);
+      EXPECT_NEAR(h.magnitudes[0].interval_90.first, 1.5 - 1.645 * 0.5, 5e-3);
+      EXPECT_NEAR(h.magnitudes[0].interval_90.second, 1.5 + 1.645 * 0.5, 5e-3);
     }
   }
+}
+
+TEST(Evidence, WhatIsBelowTheLeastMagnitudeIsNone) {
+  auto all = effects(1, 8.0);
+  const Gap gap = gap_of(all[0].at(0.3));
+  const double wide = probability(weigh(gap, all), "a");
+  all[0].least = 0.6;
+  EXPECT_LT(probability(weigh(gap, all), "a"), wide);
+  EXPECT_GE(weigh(gap, all).front().id == "none" ? 0.6 : weigh(gap, all).front().magnitudes[0].mean, 0.6);
 }
 
 TEST(Evidence, ProbabilitiesSumToOne) {
