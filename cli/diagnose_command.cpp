@@ -19,7 +19,7 @@ struct Options {
   Common common;
   RunMaking making;
   fs::path file;
-  bool dry_run = false;
+  bool dry_run = false, no_fresh_runs = false;
   int levels = 3;
   std::vector<std::string> leave_out;
 };
@@ -59,10 +59,12 @@ void run(const Options& options) {
   const fs::path beads = options.making.store_folder(options.common) / "measured";
   const auto plan = diagnosis::plan_bank(experiment, bank_options(options), beads);
   make_folder(options.common.out);
-  auto found = diagnosis::diagnose(experiment, plan, beads,
-                                   [&](const std::string& name, std::span<const sweep::RunRequest> requests) {
-                                     return make_runs(options.making, options.common, name, requests);
-                                   });
+  auto found = diagnosis::diagnose(
+      experiment, plan, beads,
+      [&](const std::string& name, std::span<const sweep::RunRequest> requests) {
+        return make_runs(options.making, options.common, name, requests);
+      },
+      {}, !options.no_fresh_runs);
   found.provenance = provenance(options.common, inputs_of(options, experiment));
   const viz::Display display;
   diagnosis_report::write_report_folder({options.common.out, display}, found);
@@ -82,6 +84,8 @@ void add_diagnose(CLI::App& app) {
       "The same command goes on where it stopped; runs are kept and shared by content (--store).");
   command->add_option("file", options->file, "Experiment file (.toml)")->required();
   command->add_flag("--dry-run", options->dry_run, "Say how many runs there are and how long they take");
+  command->add_flag("--no-fresh-runs", options->no_fresh_runs,
+                    "Only say where and which; make no further runs that measure how far the gap shrinks");
   command
       ->add_option("--levels", options->levels, "Magnitudes of each effect from which its response is learnt")
       ->check(CLI::Range(1, 6))

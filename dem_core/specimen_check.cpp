@@ -16,11 +16,11 @@ void check_overlaps(const Packing& packing, const Simulation& simulation) {
     const double sigma =
         std::sqrt(a.sigma_centre * a.sigma_centre + b.sigma_centre * b.sigma_centre +
                   0.25 * (a.sigma_diameter * a.sigma_diameter + b.sigma_diameter * b.sigma_diameter));
-    if (overlap > std::max(bound, 4.0 * sigma))
+    if (overlap > std::max(bound, 5.0 * sigma))
       bad_input(
           "packing: beads {} and {}: found an overlap of {:.4g} um, expected at most {:.4g} um (5 % of the "
-          "diameter, or four standard errors): measurement does not explain it",
-          a.id, b.id, 1e6 * overlap, 1e6 * std::max(bound, 4.0 * sigma));
+          "diameter, or five standard errors): measurement does not explain it",
+          a.id, b.id, 1e6 * overlap, 1e6 * std::max(bound, 5.0 * sigma));
   }
 }
 

@@ -98,7 +98,7 @@ void warn_of_input(const Experiment& experiment, Diagnosis& diagnosis) {
 }  // namespace
 
 Diagnosis diagnose(const Experiment& experiment, const BankPlan& plan, const fs::path& beads_folder,
-                   const MakeRuns& make_runs, const Rules& rules) {
+                   const MakeRuns& make_runs, const Rules& rules, bool fresh_runs) {
   Diagnosis diagnosis;
   diagnosis.experiment = experiment.name;
   warn_of_input(experiment, diagnosis);
@@ -108,7 +108,11 @@ Diagnosis diagnose(const Experiment& experiment, const BankPlan& plan, const fs:
   const Problem problem = problem_of(experiment, plan, tests);
   diagnosis.warnings.insert(diagnosis.warnings.end(), problem.warnings.begin(), problem.warnings.end());
   judge(problem, rules, plan, experiment, diagnosis);
-  measure_shrinkage({experiment, plan, problem, beads_folder, make_runs}, diagnosis);
+  if (fresh_runs)
+    measure_shrinkage({experiment, plan, problem, beads_folder, make_runs}, diagnosis);
+  else
+    diagnosis.warnings.push_back(
+        "how far the gap shrinks was not measured: no fresh runs were made, as asked");
   diagnosis.next = next_experiments(experiment, diagnosis.explanations);
   diagnosis.verdict = verdict_of(diagnosis);
   return diagnosis;

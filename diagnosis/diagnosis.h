@@ -57,7 +57,7 @@ struct Shrinkage {
 /// What is to be measured next.
 struct NextExperiment {
   std::string observation;                     ///< in words
-  double expected_probability_resolved = 0.0;  ///< that one explanation has nine tenths afterwards
+  double expected_probability_resolved = 0.0;  ///< that one explanation has four fifths afterwards
   double cost = 1.0;                           ///< in units of one compression test
   std::string why;
 };

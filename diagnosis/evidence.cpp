@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kGridOfOne = 121, kGridOfTwo = 31;
 constexpr double kUnknownSigmas[] = {1.5, 3.0, 6.0};
+constexpr double kLikeKnown = 0.25;  // of unknown mechanisms: as if an effect of the library acted
 
 // An effect's response is known to this share of itself: which bridges are missing is another matter than how
 // many, and a polynomial through three magnitudes is not the effect. Two effects do not quite add.
@@ -133,6 +134,16 @@ Hypothesis unknown(const Whitened& space) {
   return {"unknown", log_sum(terms), 0.0, {}, misfit};
 }
 
+/// Evidence of `unknown`, some of which does what a known effect would do.
+double with_likeness(double without_direction, const std::vector<Hypothesis>& all) {
+  std::vector<double> like_known;
+  for (const auto& h : all)
+    if (h.magnitudes.size() == 1) like_known.push_back(h.log_evidence);
+  if (like_known.empty()) return without_direction;
+  const double mean = log_sum(like_known) - std::log(static_cast<double>(like_known.size()));
+  return log_sum({without_direction + std::log(1.0 - kLikeKnown), mean + std::log(kLikeKnown)});
+}
+
 Hypothesis single(const Signature& signature, const Whitened& space) {
   const Grid grid = grid_of(signature, kGridOfOne);
   Hypothesis found{signature.id, 0.0, 0.0, {}, std::numeric_limits<double>::infinity()};
@@ -200,6 +211,7 @@ std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& sign
   for (std::size_t a = 0; a < signatures.size(); ++a)
     for (std::size_t b = a + 1; b < signatures.size(); ++b)
       all.push_back(pair(signatures[a].id + "+" + signatures[b].id, grids[a], grids[b], space));
+  all[1].log_evidence = with_likeness(all[1].log_evidence, all);
   const double effects = static_cast<double>(signatures.size());
   const double pairs = effects > 1.0 ? priors.pairs : 0.0;
   make_probabilities(all, [&](const Hypothesis& h) {

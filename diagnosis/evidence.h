@@ -58,7 +58,8 @@ struct Hypothesis {
 /// Heavens (2016, MNRAS 456, L132) where the covariance was estimated. Magnitudes are integrated over on a
 /// grid; a priori all in the signature's range are alike, those below its least one aside. A response is
 /// taken to be known to a tenth of itself, and two of them to add to 0.15 of their geometric mean. `unknown`
-/// is a residual without direction: in units of the noise, of 1.5, 3 or 6 standard deviations per feature.
+/// is a residual without direction, of 1.5, 3 or 6 standard deviations of the noise per feature; or, one time
+/// in seven, something that does what a known effect would do.
 std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& signatures,
                               const Priors& priors = {});
 

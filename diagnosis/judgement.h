@@ -12,7 +12,7 @@ struct Rules {
   double excluded = 0.01;     ///< of an effect by itself, below which it is excluded
   double separable = 9.0;     ///< Δ² below which two effects cannot be told apart
   double also_in_set = 0.05;  ///< probability from which an inseparable effect belongs to the set
-  double poor_fit = 0.05;     ///< goodness of the best explanation below which `unknown` belongs to the set
+  double poor_fit = 0.1;      ///< goodness of the best explanation below which `unknown` belongs to the set
 };
 
 /// Weighs every explanation of the gap and fills everything of a diagnosis that needs no further runs:

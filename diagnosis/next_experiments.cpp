@@ -10,7 +10,7 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kSettled = 0.9;
+constexpr double kSettled = 0.8;
 
 bool has(const Experiment& experiment, Kind kind) {
   return std::any_of(experiment.observations.begin(), experiment.observations.end(),
