@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/next_experiments.h"
@@ -55,7 +56,8 @@ double total(const Diagnosis& diagnosis) {
 TEST(Judgement, NamesAPlantedEffectAndItsMagnitude) {
   const auto diagnosis = judged({-0.4, -0.2, -0.3});
   EXPECT_EQ(diagnosis.explanations.front().id, "missing_bridges");
-  EXPECT_EQ(diagnosis.ambiguity_set, std::vector<std::string>{"missing_bridges"});
+  // Something unknown may do the same; no other effect does.
+  EXPECT_EQ(diagnosis.ambiguity_set, (std::vector<std::string>{"missing_bridges", "unknown"}));
   EXPECT_NEAR(diagnosis.explanations.front().magnitudes.front().mean, 0.2, 0.02);
   EXPECT_NEAR(total(diagnosis), 1.0, 1e-9);
   for (const auto& e : diagnosis.explanations)
@@ -82,7 +84,8 @@ TEST(Judgement, EffectsThatLookAlikeAreASet) {
   problem.signatures[0].powers = {Eigen::Vector3d(-2.0, 0.0, 0.0)};
   Diagnosis diagnosis;
   judge(problem, {}, {}, one_curve(), diagnosis);
-  EXPECT_EQ(diagnosis.ambiguity_set.size(), 2u);
+  for (const char* id : {"missing_bridges", "machine_compliance"})
+    EXPECT_TRUE(std::count(diagnosis.ambiguity_set.begin(), diagnosis.ambiguity_set.end(), id)) << id;
   const auto next = next_experiments(one_curve(), diagnosis.explanations);
   ASSERT_FALSE(next.empty());
   EXPECT_EQ(next.front().observation,
