@@ -201,13 +201,15 @@ class Learner {
     }
     std::sort(moved.begin(), moved.end());
     std::vector<std::size_t> kept;
+    std::string left_out;
     for (std::size_t k = 0; k < count; ++k) {
       if (k < kMostFeatures)
         kept.push_back(moved[k].second);
       else
-        problem_.warnings.push_back(
-            fmt::format("{} is not used: others tell more", label(problem_.observed, moved[k].second)));
+        left_out += (left_out.empty() ? "" : ", ") + label(problem_.observed, moved[k].second);
     }
+    problem_.warnings.push_back(
+        fmt::format("{} features are used; others tell less: {}", kMostFeatures, left_out));
     std::sort(kept.begin(), kept.end());
     const std::vector<Eigen::Index> rows(kept.begin(), kept.end());
     problem_.gap = part_of(problem_.gap, kept);

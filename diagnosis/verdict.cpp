@@ -16,19 +16,25 @@ std::string joined(const std::vector<std::string>& words, const char* last) {
   return text;
 }
 
+std::string feature_of(const GapRow& row) {
+  const auto& feature = row.observed;
+  return feature.name == feature.observation ? feature.name
+                                             : fmt::format("{} of {}", feature.name, feature.observation);
+}
+
 /// "1.9 times too stiff" for a modulus, else in the feature's own words.
 std::string in_words(const GapRow& row) {
   const auto& feature = row.observed;
   if (!feature.logarithm)
-    return fmt::format("{} of {} is {:.3g} in the simulation and {:.3g} in the experiment", feature.name,
-                       feature.observation, row.simulated, feature.value);
+    return fmt::format("{} is {:.3g} in the simulation and {:.3g} in the experiment", feature_of(row),
+                       row.simulated, feature.value);
   const double ratio = std::exp(std::fabs(row.difference));
   const bool larger = row.difference > 0.0;
   if (feature.name.find("modulus") != std::string::npos)
-    return fmt::format("the simulation is {:.2f} times too {} in {} of {}", ratio, larger ? "stiff" : "soft",
-                       feature.name, feature.observation);
-  return fmt::format("{} of {} is {:.2f} times too {} in the simulation", feature.name, feature.observation,
-                     ratio, larger ? "large" : "small");
+    return fmt::format("the simulation is {:.2f} times too {} in {}", ratio, larger ? "stiff" : "soft",
+                       feature_of(row));
+  return fmt::format("{} is {:.2f} times too {} in the simulation", feature_of(row), ratio,
+                     larger ? "large" : "small");
 }
 
 std::string where(const Diagnosis& diagnosis) {
@@ -75,6 +81,12 @@ std::string which(const Diagnosis& diagnosis) {
         "the "
         "simulation is of another kind, or a believed input is farther off than stated.",
         best.probability);
+  if (set.size() == 2 && set.back() == "unknown")
+    return fmt::format(
+        "It is explained by {} at {}, probability {:.2f}; something that is not in the library and acts "
+        "alike "
+        "cannot be ruled out.",
+        best.id, magnitude_of(best), best.probability);
   if (set.size() > 1)
     return fmt::format(
         "{}, {:.2f} together, cannot be told apart here; the most probable, {} at {}, has {:.2f}.",

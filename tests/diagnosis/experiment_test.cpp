@@ -38,6 +38,13 @@ TEST(Experiment, IsRead) {
   EXPECT_EQ(experiment.uncertainty.at("bridges.youngs_modulus_pa"), 1.5e5);
 }
 
+TEST(Experiment, ThePapersOwnGapIsRead) {
+  const Experiment gap =
+      read_experiment(fs::path(PENDULAR_SOURCE_DIR) / "samples/hemmerle2021/gap/experiment.toml");
+  EXPECT_EQ(gap.observations.size(), 6u);
+  EXPECT_TRUE(gap.warnings.empty());
+}
+
 TEST(Experiment, UncertaintiesOfZeroCountAsNotGiven) {
   ScratchFolder folder;
   std::string text = "strain,stress_pa,stress_sigma_pa\n";
