@@ -82,7 +82,9 @@ TEST(Sample, ItsTextReadsBackBitForBit) {
       EXPECT_EQ(sample_text(parse_sample("", "again", sample_settings(sample))), sample_text(sample));
       for (const auto& key : sample_keys()) {
         if (key.name.find("stiffness_n_per_m") != std::string::npos || !std::isfinite(key.highest)) continue;
-        if (key.name == "compression.speed_mm_s" || key.name == "compression.hold_s") continue;
+        if (key.name == "compression.speed_mm_s" || key.name == "compression.hold_s" ||
+            key.name == "bridges.relaxation_time_s")
+          continue;
         EXPECT_EQ(sample_key(again, key.name), sample_key(sample, key.name)) << key.name;
       }
       EXPECT_EQ(again.compression.unload_at, sample.compression.unload_at);
