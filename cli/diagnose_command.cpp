@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/run_making.h"
 #include "diagnosis/diagnose.h"
+#include "diagnosis/feature_values.h"
 #include "diagnosis_report/report_folder.h"
 #include "effects/list.h"
 #include "viz/display.h"
@@ -55,6 +56,7 @@ void run(const Options& options) {
   apply(options.common);
   check(options.making);
   const auto experiment = diagnosis::read_experiment(options.file);
+  diagnosis::require_features(experiment);
   if (options.dry_run) return tell_cost(options, experiment);
   const fs::path beads = options.making.store_folder(options.common) / "measured";
   const auto plan = diagnosis::plan_bank(experiment, bank_options(options), beads);

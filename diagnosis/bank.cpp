@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "diagnosis/believed.h"
-#include "diagnosis/feature_values.h"
 #include "diagnosis/funicular.h"
 #include "diagnosis/specimens.h"
 #include "effects/list.h"
@@ -154,11 +153,6 @@ std::map<std::string, double> floating_inputs(const Experiment& experiment) {
 }
 
 BankPlan plan_bank(const Experiment& experiment, const BankOptions& options, const fs::path& beads_folder) {
-  if (observed_features(experiment).features.empty())
-    bad_input(
-        "{}: the observations show nothing that can be compared, expected e.g. a compression that shows its "
-        "linear part",
-        experiment.name);
   return Planner(experiment, options, beads_folder).plan();
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/error.h"
+
 namespace pendular::diagnosis {
 namespace {
 
@@ -82,6 +84,14 @@ std::optional<Columns> simulated_columns(const Experiment& experiment,
     return columns_of_test(observation, *tests[c]);
   }
   return std::nullopt;
+}
+
+void require_features(const Experiment& experiment) {
+  if (observed_features(experiment).features.empty())
+    bad_input(
+        "{}: the observations show nothing that can be compared, expected e.g. a compression that shows its "
+        "linear part",
+        experiment.name);
 }
 
 Eigen::VectorXd simulated_features(const Experiment& experiment, const std::vector<Condition>& conditions,

@@ -25,6 +25,9 @@ struct ObservedFeatures {
 };
 ObservedFeatures observed_features(const Experiment& experiment);
 
+/// BadInput where the observations show no feature at all: before runs are made for them.
+void require_features(const Experiment& experiment);
+
 /// Those of `kept`, in that order.
 ObservedFeatures subset(const ObservedFeatures& all, const std::vector<std::size_t>& kept);
 
