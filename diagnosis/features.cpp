@@ -107,13 +107,16 @@ void add_bridges(List& list, const Columns& columns) {
   }
 }
 
+constexpr double kRounding = 1e-12;  // what remains of the spread of equal numbers
+
 void add_diameters(List& list, const Columns& columns) {
   const auto& d = columns.at("d_um");
   const double middle = mean(d);
   double square = 0.0;
   for (double one : d) square += (one - middle) * (one - middle);
   list.ratio("diameter_mean", middle);
-  list.difference("diameter_spread", std::sqrt(square / static_cast<double>(d.size() - 1)) / middle);
+  const double spread = std::sqrt(square / static_cast<double>(d.size() - 1)) / middle;
+  list.difference("diameter_spread", spread > kRounding ? spread : 0.0);
 }
 
 void add_breaks(List& list, const Observation& observation, const Columns& columns) {
