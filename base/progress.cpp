@@ -58,9 +58,10 @@ void Progress::update(double done, const std::string& note) {
   if (now < next_ || !logger().should_log(spdlog::level::info)) return;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const double rate = (done - first_) / elapsed;
-  const double left = rate > 0.0 ? (total_ - done) / rate : 0.0;
-  std::string line = fmt::format("{}: {:.0f} %, {} gone, {} left{}{}", what_, 100.0 * done / total_,
-                                 duration(elapsed), duration(left), note.empty() ? "" : ", ", note);
+  // Nothing is known of the time left before the first step is done.
+  const std::string left = rate > 0.0 ? fmt::format(", {} left", duration((total_ - done) / rate)) : "";
+  std::string line = fmt::format("{}: {:.0f} %, {} gone{}{}{}", what_, 100.0 * done / total_,
+                                 duration(elapsed), left, note.empty() ? "" : ", ", note);
   if (on_terminal()) {
     std::fputs(("\r\033[K" + line).c_str(), stderr);
     std::fflush(stderr);

@@ -30,6 +30,8 @@ struct DesignPoint {
   std::string id;      ///< of the effect or believed input that is changed; empty: none
   double theta = 0.0;  ///< magnitude, or standard deviations
   bool whole = true;   ///< specimens of the observed size; else smaller ones (BankPlan::size)
+
+  Changes changes() const { return id.empty() ? Changes{} : Changes{{id, theta}}; }
 };
 
 struct BankOptions {

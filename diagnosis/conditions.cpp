@@ -51,7 +51,7 @@ std::vector<double> rounded(std::vector<double> strains) {
   return once;
 }
 
-/// Beads as measured are used as they are; nothing is shown that no observation asks for.
+/// Diameters of measured beads are not drawn anew; nothing is shown that no observation asks for.
 void set_course(Sample& sample, const Observation& observation) {
   if (!observation.beads.empty()) sample.beads.diameters = "measured";
   sample.observe = {false, false, false, false, false};
@@ -118,7 +118,7 @@ void merge(std::vector<Condition>& all, Condition next) {
 }
 
 /// Rows of a series that are simulated: its ends, and in polymer content those on both sides of the funicular
-/// transition. Between them the logarithm of E is interpolated (series.h).
+/// transition. Between them the logarithm of E is interpolated (columns_of_series).
 std::vector<std::size_t> supporting_rows(const std::vector<double>& at, bool by_content) {
   std::vector<std::size_t> order(at.size()), rows;
   std::iota(order.begin(), order.end(), std::size_t{0});

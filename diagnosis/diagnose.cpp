@@ -15,10 +15,6 @@ namespace {
 
 constexpr double kContradiction = 4.0;  // sigma between two measurements of one thing
 
-Changes changes_of(const DesignPoint& point) {
-  return point.id.empty() ? Changes{} : Changes{{point.id, point.theta}};
-}
-
 /// The bank's tests, by point.
 std::vector<SimulatedTests> bank_tests(const BankPlan& plan, const MakeRuns& make_runs,
                                        Diagnosis& diagnosis) {
@@ -30,7 +26,7 @@ std::vector<SimulatedTests> bank_tests(const BankPlan& plan, const MakeRuns& mak
     const auto& [point, condition] = plan.runs[k];
     const DesignPoint& of = plan.points[point];
     auto& test = tests[point][condition];
-    test = read_outcome(outcomes[k], condition, purpose_of(changes_of(of)), diagnosis.ledger);
+    test = read_outcome(outcomes[k], condition, purpose_of(of.changes()), diagnosis.ledger);
     if (of.id.empty() && test) ++baselines;
     if (of.id.empty() && !test) why = outcomes[k].message;
   }

@@ -86,6 +86,7 @@ struct Diagnosis {
   std::vector<Explanation> explanations;   ///< most probable first; every effect, none, unknown; pairs
   std::vector<std::string> ambiguity_set;  ///< explanations that cannot be told apart here, best one first
   double set_probability = 0.0;
+  std::string nearest_signature;  ///< what naming by the least misfit would say: an effect, or "none"
   double goodness = 1.0;  ///< of the best explanation: probability of a misfit as large by noise alone
   std::vector<std::string> effects;  ///< rows of `signatures` and `separation`
   Eigen::MatrixXd signatures;        ///< effect × feature at the effect's scale, over the feature's noise

@@ -68,6 +68,16 @@ double goodness_of(double misfit, Eigen::Index features, double freedom) {
   return static_cast<double>(larger) / kToys;
 }
 
+/// What naming by the least misfit would say: none where the gap is within the noise.
+std::string nearest_signature(const std::vector<Hypothesis>& hypotheses, Eigen::Index features) {
+  const Hypothesis* nearest = nullptr;
+  for (const auto& h : hypotheses) {
+    if (h.id == "none" && h.misfit <= static_cast<double>(features)) return h.id;
+    if (h.magnitudes.size() == 1 && (!nearest || h.misfit < nearest->misfit)) nearest = &h;
+  }
+  return nearest ? nearest->id : "none";
+}
+
 /// Probability of everything that holds an effect.
 double marginal(const std::vector<Hypothesis>& hypotheses, const std::string& effect) {
   double sum = 0.0;
@@ -253,6 +263,7 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   set_signatures(problem, diagnosis);
   const auto hypotheses = weigh(problem.gap, problem.signatures, rules.priors);
   set_explanations(problem, hypotheses, rules, plan, diagnosis);
+  diagnosis.nearest_signature = nearest_signature(hypotheses, problem.gap.values.size());
   const Hypothesis& best = hypotheses.front();
   diagnosis.goodness = goodness_of(best.misfit, static_cast<Eigen::Index>(problem.observed.features.size()),
                                    problem.gap.freedom);

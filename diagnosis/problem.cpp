@@ -22,10 +22,6 @@ std::string label(const ObservedFeatures& observed, std::size_t k) {
   return fmt::format("{}: {}", observed.features[k].observation, observed.features[k].name);
 }
 
-Changes changes_of(const DesignPoint& point) {
-  return point.id.empty() ? Changes{} : Changes{{point.id, point.theta}};
-}
-
 /// Mean of the rows that are finite, feature by feature.
 Eigen::VectorXd mean_of(const std::vector<Eigen::VectorXd>& rows, Eigen::Index size) {
   Eigen::VectorXd mean = Eigen::VectorXd::Constant(size, std::nan(""));
@@ -62,7 +58,7 @@ class Learner {
     for (std::size_t k = 0; k < plan_.points.size(); ++k) {
       const DesignPoint& point = plan_.points[k];
       Eigen::VectorXd values =
-          simulated_features(experiment_, plan_.conditions, problem_.observed, tests_[k], changes_of(point));
+          simulated_features(experiment_, plan_.conditions, problem_.observed, tests_[k], point.changes());
       if (point.whole && point.id.empty()) {
         baselines_.push_back(values);
         baseline_points_.push_back(k);
@@ -74,8 +70,7 @@ class Learner {
   void keep(const std::vector<std::size_t>& kept) {
     problem_.observed = subset(problem_.observed, kept);
     const std::vector<Eigen::Index> rows(kept.begin(), kept.end());
-    for (auto* vectors : {&baselines_})
-      for (auto& values : *vectors) values = Eigen::VectorXd(values(rows));
+    for (auto& values : baselines_) values = Eigen::VectorXd(values(rows));
     for (auto& run : design_) run.values = Eigen::VectorXd(run.values(rows));
   }
 

@@ -168,6 +168,7 @@ ordered_json to_json(const Diagnosis& d) {
   json["hypotheses"] = hypotheses_of(d);
   json["ambiguity_set"] = d.ambiguity_set;
   json["ambiguity_set_probability"] = number(d.set_probability);
+  json["nearest_signature"] = d.nearest_signature;
   json["goodness"] = number(d.goodness);
   json["shrinkage"] = shrinkage_of(d);
   json["next_experiments"] = next_of(d);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "packing/bridges.h"
-#include "packing/neighbours.h"
 
 namespace pendular {
 namespace {
@@ -71,20 +71,18 @@ std::vector<Bead> closed_contacts(std::vector<Bead> beads) {
   // By the gaps as they were measured; later rounds add only beads that have come to overlap.
   std::vector<Bridge> touching = candidate_bridges(beads, kFar * sigma);
   std::erase_if(touching, [&](const Bridge& pair) { return !likelihood.touches(pair.gap, pair.sigma_gap); });
+  std::set<std::pair<int, int>> known;
   for (int round = 0; round < kRounds; ++round) {
     std::erase_if(touching, [](const Bridge& pair) { return !(pair.sigma_gap > 0.0); });
+    for (const auto& pair : touching) known.emplace(pair.i, pair.j);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       double worst = 0.0;
       for (const auto& pair : touching)
         worst = std::max(worst, close(beads[pair.i], beads[pair.j], pair.sigma_gap));
       if (worst < kClosed) break;
     }
-    const auto known = [&](const Bridge& pair) {
-      return std::any_of(touching.begin(), touching.end(),
-                         [&](const Bridge& other) { return other.i == pair.i && other.j == pair.j; });
-    };
     std::vector<Bridge> more = candidate_bridges(beads, -kClosed * sigma);
-    std::erase_if(more, known);
+    std::erase_if(more, [&](const Bridge& pair) { return known.contains({pair.i, pair.j}); });
     if (more.empty()) break;
     touching.insert(touching.end(), more.begin(), more.end());
   }

@@ -56,6 +56,7 @@ double total(const Diagnosis& diagnosis) {
 TEST(Judgement, NamesAPlantedEffectAndItsMagnitude) {
   const auto diagnosis = judged({-0.4, -0.2, -0.3});
   EXPECT_EQ(diagnosis.explanations.front().id, "missing_bridges");
+  EXPECT_EQ(diagnosis.nearest_signature, "missing_bridges");
   // Something unknown may do the same; no other effect does.
   EXPECT_EQ(diagnosis.ambiguity_set, (std::vector<std::string>{"missing_bridges", "unknown"}));
   EXPECT_NEAR(diagnosis.explanations.front().magnitudes.front().mean, 0.2, 0.02);
@@ -70,6 +71,7 @@ TEST(Judgement, NamesAPlantedEffectAndItsMagnitude) {
 TEST(Judgement, NoGapNeedsNoExplanation) {
   const auto diagnosis = judged({0.01, -0.01, 0.01});
   EXPECT_EQ(diagnosis.explanations.front().id, "none");
+  EXPECT_EQ(diagnosis.nearest_signature, "none");
   EXPECT_NE(verdict_of(diagnosis).find("Nothing needs to be explained"), std::string::npos);
 }
 
