@@ -30,6 +30,7 @@ ReadOptions reading(const Options& options) {
 
 SegmentOptions choices(const Options& options) {
   SegmentOptions segment = options.segment;
+  segment.measure_bridges = !options.bridges.empty();
   segment.tone = options.tone == "bright" ? BeadTone::bright
                  : options.tone == "dark" ? BeadTone::dark
                                           : BeadTone::automatic;
@@ -45,6 +46,23 @@ nlohmann::ordered_json to_json(const Specimen& specimen) {
           {"bottom_um", specimen.bottom * 1e6}};
 }
 
+nlohmann::ordered_json to_json(const BridgeSummary& bridges) {
+  nlohmann::ordered_json json = {{"pairs", bridges.pairs},
+                                 {"bridges", bridges.bridges},
+                                 {"none", bridges.none},
+                                 {"undetermined", bridges.undetermined},
+                                 {"hidden", bridges.unseen},
+                                 {"noise_scatter", bridges.noise_scatter},
+                                 {"polymer_seen", bridges.polymer_seen}};
+  if (!bridges.polymer_seen) return json;
+  json["polymer_contrast"] = bridges.contrast;
+  json["sigma_polymer_contrast"] = bridges.sigma_contrast;
+  json["share_of_pairs"] = bridges.share;
+  json["bridge_diameter_um"] = 1e6 * bridges.diameter;
+  json["bridge_diameter_sd_um"] = 1e6 * bridges.diameter_sd;
+  return json;
+}
+
 nlohmann::ordered_json summary(const Volume& volume, const Segmentation& result,
                                const Provenance& provenance) {
   const auto& levels = result.levels;
@@ -56,6 +74,7 @@ nlohmann::ordered_json summary(const Volume& volume, const Segmentation& result,
       {"mean_diameter_um", mean_diameter(result.beads) * 1e6},
       {"specimen", result.specimen ? to_json(*result.specimen) : nlohmann::ordered_json(nullptr)},
       {"porosity", result.porosity},
+      {"measured_bridges", result.measured ? to_json(*result.measured) : nlohmann::ordered_json(nullptr)},
       {"threshold", levels.threshold},
       {"dark_level", levels.dark},
       {"bright_level", levels.bright},
@@ -90,8 +109,13 @@ void run(const Options& options) {
   if (!options.qa.empty()) write_qa(options.qa, volume, result);
   write_text(fs::path(options.common.out).replace_extension(".json"),
              summary(volume, result, origin).dump(2) + "\n");
-  say(fmt::format("{} beads of {:.2f} um, {} candidate bridges, porosity {:.4f}", result.beads.size(),
-                  mean_diameter(result.beads) * 1e6, result.bridges.size(), result.porosity));
+  const auto& measured = result.measured;
+  say(fmt::format("{} beads of {:.2f} um, {} pairs near enough for a bridge{}, porosity {:.4f}",
+                  result.beads.size(), mean_diameter(result.beads) * 1e6, result.bridges.size(),
+                  measured ? fmt::format(": {} bridges, {} without, {} undetermined", measured->bridges,
+                                         measured->none, measured->undetermined)
+                           : "",
+                  result.porosity));
 }
 
 }  // namespace
@@ -116,7 +140,13 @@ void add_segment(CLI::App& app) {
       ->check(CLI::Range(1, 1 << 24));
   command->add_option("--type", options->type, "Raw data: pixel type, little endian")
       ->check(CLI::IsMember({"uint8", "uint16", "float"}));
-  command->add_option("--bridges", options->bridges, "Write candidate bridges (bridges.csv)");
+  command->add_option("--bridges", options->bridges,
+                      "Look for polymer between near beads and write what is found (bridges.csv)");
+  command
+      ->add_option("--false-discoveries", options->segment.false_discoveries,
+                   "Largest expected share of wrong ones among bridges, and among pairs said to have none")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 0.5));
   command->add_option("--labels", options->labels, "Write each voxel's bead number (.mha)");
   command->add_option("--qa", options->qa, "Write pictures to judge the result by into this folder");
   command

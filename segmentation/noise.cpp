@@ -70,7 +70,7 @@ LagSums core_sums(std::span<const T> pixels, const Volume& volume, const GreyBal
 /// ρ at a distance between lags, linearly; 0 from the first lag on that is lost in the scatter.
 double correlation_at(const std::vector<double>& correlation, double distance) {
   const auto lag = static_cast<std::size_t>(distance);
-  if (lag + 1 >= correlation.size()) return 0.0;
+  if (lag + 1 >= correlation.size()) return lag == 0 && distance == 0.0 ? 1.0 : 0.0;
   const double share = distance - static_cast<double>(lag);
   return (1.0 - share) * correlation[lag] + share * correlation[lag + 1];
 }
@@ -103,6 +103,16 @@ Noise measure_noise(const Volume& volume, std::span<const GreyBall> balls, doubl
     if (rho <= lost) break;
   }
   return noise;
+}
+
+double correlated_volume(const Noise& noise) {
+  const long lags = static_cast<long>(noise.correlation.size()) - 1;
+  double sum = 0.0;
+  for (long k = -lags; k <= lags; ++k)
+    for (long j = -lags; j <= lags; ++j)
+      for (long i = -lags; i <= lags; ++i)
+        sum += correlation_at(noise.correlation, std::sqrt(static_cast<double>(i * i + j * j + k * k)));
+  return std::max(1.0, sum);
 }
 
 VarianceInflation variance_inflation(const Noise& noise, double radius, double blur) {

@@ -17,6 +17,10 @@ struct Noise {
 /// ball's outer part is not core, voxels. Without any core the sd is 0.
 Noise measure_noise(const Volume& volume, std::span<const GreyBall> balls, double margin);
 
+/// Σ ρ over all lags, in voxels: by how much correlation raises the variance of a mean over many voxels; ρ
+/// taken as isotropic.
+double correlated_volume(const Noise& noise);
+
 /// By how much correlation of the noise raises the variance of a fitted ball's centre and radius above what
 /// independent noise of the same sd gives: Σ_uv J_u J_v ρ(|u − v|) / Σ_v J_v², with J the slope of the
 /// profile over the shell and ρ taken as isotropic.

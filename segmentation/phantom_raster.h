@@ -54,9 +54,10 @@ class NeckImage {
   void add_to(const Slice& slice) const;
   bool touches(int z) const;
 
- private:
+  /// The neck's share at a point: its place along the axis from the centre of ball a, its distance from it.
   double at(double along, double across) const;
 
+ private:
   const Sharpness* sharpness_;
   Vec3 centre_, axis_, middle_, half_;  ///< of ball a; unit vector to b; middle and half-widths of its box
   double step_, start_;                 ///< of the table, and the position along the axis where it begins

@@ -22,6 +22,15 @@ double quality_of(const BallFit& fit, const Noise& noise) {
   return 1.0 / (1.0 + misfit_squared / (half_quality * half_quality));
 }
 
+/// By rising z.
+void sort_fits(std::vector<BallFit>& fits) {
+  const auto place = [](const BallFit& fit) {
+    return std::make_tuple(fit.ball.centre.z(), fit.ball.centre.y(), fit.ball.centre.x());
+  };
+  std::sort(fits.begin(), fits.end(),
+            [&](const BallFit& a, const BallFit& b) { return place(a) < place(b); });
+}
+
 std::vector<Bead> beads_of(const Volume& volume, const FittedBeads& fitted) {
   std::vector<double> radii;
   for (const BallFit& fit : fitted.fits) radii.push_back(fit.ball.radius);
@@ -30,6 +39,7 @@ std::vector<Bead> beads_of(const Volume& volume, const FittedBeads& fitted) {
   std::vector<Bead> beads;
   for (const BallFit& fit : fitted.fits) {
     Bead bead;
+    bead.id = static_cast<std::int64_t>(beads.size()) + 1;
     bead.centre = volume.origin + volume.spacing * fit.ball.centre;
     bead.diameter = 2.0 * volume.spacing * fit.ball.radius;
     bead.sigma_centre = volume.spacing * fit.sigma_centre * std::sqrt(inflation.centre);
@@ -37,11 +47,6 @@ std::vector<Bead> beads_of(const Volume& volume, const FittedBeads& fitted) {
     bead.quality = quality_of(fit, fitted.noise);
     beads.push_back(bead);
   }
-  std::sort(beads.begin(), beads.end(), [](const Bead& a, const Bead& b) {
-    return std::make_tuple(a.centre.z(), a.centre.y(), a.centre.x()) <
-           std::make_tuple(b.centre.z(), b.centre.y(), b.centre.x());
-  });
-  for (std::size_t n = 0; n < beads.size(); ++n) beads[n].id = static_cast<std::int64_t>(n) + 1;
   return beads;
 }
 
@@ -63,6 +68,9 @@ void add_warnings(Segmentation& result) {
     result.warnings.push_back(fmt::format(
         "{} bodies have no ball's edge, against {} beads: irregular grains, or the other tone (--beads)?",
         result.grains.size(), result.beads.size()));
+  if (result.measured && !result.measured->polymer_seen)
+    result.warnings.push_back(
+        "no polymer can be told from what surrounds the beads: every bridge is undetermined");
   if (!result.specimen)
     result.warnings.push_back("no container seen: porosity is of the whole picture, walls are not known");
 }
@@ -118,18 +126,22 @@ Segmentation segment(const Volume& volume, const SegmentOptions& options) {
   const BeadSearch search = search_beads(volume, options.tone, least_radius, [&](const BeadSearch& tried) {
     return ball_share(volume, tried, options.cutoff);
   });
-  const FittedBeads fitted = fit_beads(volume, search, options.cutoff);
+  FittedBeads fitted = fit_beads(volume, search, options.cutoff);
   if (fitted.fits.empty())
     bad_input(
         "no beads found: {} bodies looked at in a volume of {} x {} x {} voxels, none with the edge of a "
         "ball",
         search.seeds.size(), volume.size[0], volume.size[1], volume.size[2]);
+  sort_fits(fitted.fits);
   result.levels = search.levels;
   result.bright_beads = search.bright;
   result.beads = beads_of(volume, fitted);
   if (search.container) result.specimen = specimen_of(volume, *search.container, result.beads);
   flag_boundaries(volume, result);
   result.bridges = candidate_bridges(result.beads, options.cutoff * mean_diameter(result.beads));
+  if (options.measure_bridges)
+    result.measured =
+        measure_bridges(volume, fitted, search.container, options.false_discoveries, result.bridges);
   result.porosity = porosity_of(volume, result.specimen, result.levels.threshold, result.bright_beads);
   result.blur = fitted.blur * volume.spacing;
   result.noise = fitted.noise.sd / (result.levels.bright - result.levels.dark);

@@ -6,6 +6,7 @@
 
 #include "packing/packing.h"
 #include "segmentation/bead_search.h"
+#include "segmentation/bridge_search.h"
 #include "segmentation/volume.h"
 
 namespace pendular {
@@ -14,13 +15,17 @@ struct SegmentOptions {
   double cutoff = 0.064;                 ///< candidate bridges have gaps below cutoff × mean diameter
   BeadTone tone = BeadTone::automatic;   ///< of the beads against what surrounds them
   std::optional<double> least_diameter;  ///< m; none: 0.4 of the typical one
+  bool measure_bridges = false;          ///< look for polymer between candidates
+  double false_discoveries =
+      0.05;  ///< largest expected share of wrong ones among bridges, and among absences
 };
 
 /// A tomogram taken apart. Lengths in m, positions in the volume's own frame.
 struct Segmentation {
-  std::vector<Bead> beads;      ///< ids from 1, by rising z
-  std::vector<Bridge> bridges;  ///< candidates
-  std::vector<Bead> grains;     ///< bodies too irregular for a ball; place and inscribed diameter, quality 0
+  std::vector<Bead> beads;                ///< ids from 1, by rising z
+  std::vector<Bridge> bridges;            ///< candidates, or measured ones
+  std::optional<BridgeSummary> measured;  ///< of the bridges, where they were looked for
+  std::vector<Bead> grains;  ///< bodies too irregular for a ball; place and inscribed diameter, quality 0
   std::optional<Specimen> specimen;  ///< the inside of the container, where one is seen
   GreyLevels levels;
   bool bright_beads = true;
