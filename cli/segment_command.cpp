@@ -15,6 +15,8 @@ struct Options {
   double voxel_um = 0.0, min_diameter_um = 0.0;
   std::vector<std::size_t> size;
   std::string type, tone = "auto";
+  double false_discoveries = BridgeOptions().false_discoveries;
+  bool calibrate_bridges = false;
   SegmentOptions segment;
 };
 
@@ -30,7 +32,7 @@ ReadOptions reading(const Options& options) {
 
 SegmentOptions choices(const Options& options) {
   SegmentOptions segment = options.segment;
-  segment.measure_bridges = !options.bridges.empty();
+  if (!options.bridges.empty()) segment.bridges = {options.false_discoveries, options.calibrate_bridges};
   segment.tone = options.tone == "bright" ? BeadTone::bright
                  : options.tone == "dark" ? BeadTone::dark
                                           : BeadTone::automatic;
@@ -60,6 +62,12 @@ nlohmann::ordered_json to_json(const BridgeSummary& bridges) {
   json["share_of_pairs"] = bridges.share;
   json["bridge_diameter_um"] = 1e6 * bridges.diameter;
   json["bridge_diameter_sd_um"] = 1e6 * bridges.diameter_sd;
+  for (const auto& size : bridges.injected)
+    json["injected"].push_back({{"bridge_diameter_um", 1e6 * size.diameter},
+                                {"injected", size.injected},
+                                {"found", size.found},
+                                {"measured_um", 1e6 * size.measured},
+                                {"rms_error_um", 1e6 * size.rms_error}});
   return json;
 }
 
@@ -143,10 +151,12 @@ void add_segment(CLI::App& app) {
   command->add_option("--bridges", options->bridges,
                       "Look for polymer between near beads and write what is found (bridges.csv)");
   command
-      ->add_option("--false-discoveries", options->segment.false_discoveries,
+      ->add_option("--false-discoveries", options->false_discoveries,
                    "Largest expected share of wrong ones among bridges, and among pairs said to have none")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 0.5));
+  command->add_flag("--calibrate-bridges", options->calibrate_bridges,
+                    "Put necks of several sizes into the volume, and say which are found (in the summary)");
   command->add_option("--labels", options->labels, "Write each voxel's bead number (.mha)");
   command->add_option("--qa", options->qa, "Write pictures to judge the result by into this folder");
   command

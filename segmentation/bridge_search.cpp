@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "packing/neighbours.h"
-#include "segmentation/neck_statistics.h"
+#include "segmentation/neck_injection.h"
 
 namespace pendular {
 namespace {
@@ -16,6 +16,7 @@ constexpr double kReach = 1.0;  // of the typical radius, within which other bal
 constexpr std::size_t kMostForPopulation = 4000;
 constexpr double kControlFrom = 0.25, kControlTo = 0.45;  // gaps over the radius: of pairs without a bridge
 constexpr std::size_t kMostControls = 2000;
+constexpr std::size_t kLeastHosts = 24, kMostHosts = 800;
 constexpr double kLeastNoise = 1e-8;  // squared grey values; a picture may have no noise at all
 
 std::vector<GreyBall> balls_of(const FittedBeads& fitted) {
@@ -54,6 +55,22 @@ std::vector<BallPair> controls(const std::vector<GreyBall>& balls, double radius
   return some;
 }
 
+/// The balls that may hide each pair's crevice.
+std::vector<std::vector<int>> near_of(const std::vector<GreyBall>& balls,
+                                      const std::vector<BallPair>& pairs) {
+  std::vector<std::vector<int>> near(balls.size()), of_pairs;
+  for (const auto& [i, j] : near_pairs(balls, kReach * typical_radius(balls)))
+    near[static_cast<std::size_t>(i)].push_back(j), near[static_cast<std::size_t>(j)].push_back(i);
+  for (const auto& pair : pairs) {
+    std::vector<int> others = near[static_cast<std::size_t>(pair.i)];
+    const auto& more = near[static_cast<std::size_t>(pair.j)];
+    others.insert(others.end(), more.begin(), more.end());
+    std::erase_if(others, [&](int k) { return k == pair.i || k == pair.j; });
+    of_pairs.push_back(std::move(others));
+  }
+  return of_pairs;
+}
+
 /// The evidence of every pair's crevice, as seen in the volume.
 std::vector<std::optional<NeckEvidence>> evidence_of(const Volume& volume, const std::vector<GreyBall>& balls,
                                                      const std::vector<BallPair>& pairs,
@@ -61,9 +78,7 @@ std::vector<std::optional<NeckEvidence>> evidence_of(const Volume& volume, const
                                                      const ImageKnowledge& knowledge,
                                                      const std::string& name) {
   const NeckTemplates templates(pairs, knowledge.blur);
-  std::vector<std::vector<int>> near(balls.size());
-  for (const auto& [i, j] : near_pairs(balls, kReach * typical_radius(balls)))
-    near[static_cast<std::size_t>(i)].push_back(j), near[static_cast<std::size_t>(j)].push_back(i);
+  const auto near = near_of(balls, pairs);
   std::vector<std::optional<NeckEvidence>> found(pairs.size());
   Progress progress(name, static_cast<double>(pairs.size()));
   constexpr std::size_t batch = 256;
@@ -71,12 +86,8 @@ std::vector<std::optional<NeckEvidence>> evidence_of(const Volume& volume, const
     stop_if_interrupted();
     const std::size_t last = std::min(pairs.size(), first + batch);
     for_blocks(last - first, 1, [&](std::size_t n, std::size_t) {
-      const BallPair& pair = pairs[first + n];
-      std::vector<int> others = near[static_cast<std::size_t>(pair.i)];
-      const auto& more = near[static_cast<std::size_t>(pair.j)];
-      others.insert(others.end(), more.begin(), more.end());
-      std::erase_if(others, [&](int k) { return k == pair.i || k == pair.j; });
-      found[first + n] = neck_evidence(volume, balls, pair, others, container, knowledge, templates);
+      found[first + n] =
+          neck_evidence(volume, balls, pairs[first + n], near[first + n], container, knowledge, templates);
     });
     progress.update(static_cast<double>(last));
   }
@@ -110,10 +121,29 @@ ImageKnowledge knowledge_of(const FittedBeads& fitted) {
   return knowledge;
 }
 
+/// At most some hundred of the pairs that have no bridge, evenly among them.
+std::vector<BallPair> hosts_of(const std::vector<Bridge>& pairs, const std::vector<BallPair>& looked_at) {
+  std::vector<BallPair> all, some;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (pairs[k].state == BridgeState::none) all.push_back(looked_at[k]);
+  if (all.size() < kLeastHosts) return {};
+  const std::size_t step = all.size() / kMostHosts + 1;
+  for (std::size_t k = 0; k < all.size(); k += step) some.push_back(all[k]);
+  return some;
+}
+
+std::vector<InjectedNecks> in_metres(const std::vector<NeckRecovery>& points, double spacing) {
+  std::vector<InjectedNecks> all;
+  for (const auto& p : points)
+    all.push_back(
+        {2.0 * spacing * p.radius, p.injected, p.found, 2.0 * spacing * p.mean, 2.0 * spacing * p.rms_error});
+  return all;
+}
+
 }  // namespace
 
 BridgeSummary measure_bridges(const Volume& volume, const FittedBeads& fitted,
-                              const std::optional<Container>& container, double false_discoveries,
+                              const std::optional<Container>& container, const BridgeOptions& options,
                               std::vector<Bridge>& pairs) {
   BridgeSummary summary;
   summary.pairs = pairs.size();
@@ -149,7 +179,7 @@ BridgeSummary measure_bridges(const Volume& volume, const FittedBeads& fitted,
     pair.sigma_diameter = 2.0 * volume.spacing * verdict.sigma_radius;
     judged.push_back(k), probabilities.push_back(verdict.probability);
   }
-  const auto states = neck_states(probabilities, false_discoveries);
+  const auto states = neck_states(probabilities, options.false_discoveries);
   for (std::size_t k = 0; k < judged.size(); ++k) pairs[judged[k]].state = states[k];
   for (auto& pair : pairs) {
     summary.bridges += pair.state == BridgeState::bridge;
@@ -163,6 +193,14 @@ BridgeSummary measure_bridges(const Volume& volume, const FittedBeads& fitted,
   summary.share = population->share;
   summary.diameter = 2.0 * volume.spacing * population->mean;
   summary.diameter_sd = 2.0 * volume.spacing * population->sd;
+  if (!options.calibrate) return summary;
+  double threshold = 1.0;
+  for (const auto& pair : pairs)
+    if (pair.state == BridgeState::bridge) threshold = std::min(threshold, pair.probability);
+  const auto hosts = hosts_of(pairs, looked_at);
+  summary.injected = in_metres(recover_injected(volume, balls, hosts, near_of(balls, hosts), container,
+                                                knowledge, *population, threshold),
+                               volume.spacing);
   return summary;
 }
 

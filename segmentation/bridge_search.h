@@ -8,6 +8,21 @@
 
 namespace pendular {
 
+struct BridgeOptions {
+  double false_discoveries =
+      0.05;                ///< largest expected share of wrong ones among bridges, and among absences
+  bool calibrate = false;  ///< put necks into the picture and see which are found
+};
+
+/// What became of necks of one size that were put into the picture. Lengths in m.
+struct InjectedNecks {
+  double diameter = 0.0;
+  std::size_t injected = 0;
+  double found = 0.0;      ///< share that is said to be a bridge
+  double measured = 0.0;   ///< mean diameter of those
+  double rms_error = 0.0;  ///< of it
+};
+
 /// What the grey values say of all bridges together. Lengths in m.
 struct BridgeSummary {
   std::size_t pairs = 0;  ///< looked at
@@ -19,14 +34,14 @@ struct BridgeSummary {
   double diameter = 0.0, diameter_sd = 0.0;     ///< of all necks, without errors of measurement
   double noise_scatter =
       1.0;  ///< of the evidence of pairs too far apart for bridges, over what noise makes of it
+  std::vector<InjectedNecks> injected;  ///< where asked for; empty where too few pairs have no bridge
 };
 
-/// Looks for polymer in the crevice of each pair: sets probability, neck diameter and state, with bridges and
-/// absences such that `false_discoveries` of either are wrong at most. `pairs` are of `fitted`'s beads, by
-/// their places. The noise is what the evidence of pairs too far apart for bridges scatters by, but no less
-/// than independent noise makes of it.
+/// Looks for polymer in the crevice of each pair: sets probability, neck diameter and state. `pairs` are of
+/// `fitted`'s beads, by their places. The noise is what the evidence of pairs too far apart for bridges
+/// scatters by, but no less than independent noise makes of it.
 BridgeSummary measure_bridges(const Volume& volume, const FittedBeads& fitted,
-                              const std::optional<Container>& container, double false_discoveries,
+                              const std::optional<Container>& container, const BridgeOptions& options,
                               std::vector<Bridge>& pairs);
 
 }  // namespace pendular

@@ -139,9 +139,8 @@ Segmentation segment(const Volume& volume, const SegmentOptions& options) {
   if (search.container) result.specimen = specimen_of(volume, *search.container, result.beads);
   flag_boundaries(volume, result);
   result.bridges = candidate_bridges(result.beads, options.cutoff * mean_diameter(result.beads));
-  if (options.measure_bridges)
-    result.measured =
-        measure_bridges(volume, fitted, search.container, options.false_discoveries, result.bridges);
+  if (options.bridges)
+    result.measured = measure_bridges(volume, fitted, search.container, *options.bridges, result.bridges);
   result.porosity = porosity_of(volume, result.specimen, result.levels.threshold, result.bright_beads);
   result.blur = fitted.blur * volume.spacing;
   result.noise = fitted.noise.sd / (result.levels.bright - result.levels.dark);

@@ -15,9 +15,7 @@ struct SegmentOptions {
   double cutoff = 0.064;                 ///< candidate bridges have gaps below cutoff × mean diameter
   BeadTone tone = BeadTone::automatic;   ///< of the beads against what surrounds them
   std::optional<double> least_diameter;  ///< m; none: 0.4 of the typical one
-  bool measure_bridges = false;          ///< look for polymer between candidates
-  double false_discoveries =
-      0.05;  ///< largest expected share of wrong ones among bridges, and among absences
+  std::optional<BridgeOptions> bridges;  ///< look for polymer between candidates
 };
 
 /// A tomogram taken apart. Lengths in m, positions in the volume's own frame.
