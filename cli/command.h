@@ -46,5 +46,6 @@ void add_blind(CLI::App& app);
 void add_sweep_run(CLI::App& app);  // the process of one run; not for users
 void add_blind_case(CLI::App& app);  // the process of one case; not for users
 void add_pipette(CLI::App& app);
+void add_track(CLI::App& app);
 
 }  // namespace pendular::cli

@@ -16,6 +16,7 @@ void add_commands(CLI::App& app) {
   add_demo(app);
   add_phantom(app);
   add_segment(app);
+  add_track(app);
   add_pack(app);
   add_bridge(app);
   add_compress(app);

@@ -12,7 +12,7 @@ namespace pendular::viz {
 struct Frame {
   enum class Pair { bond, broken, contact };  ///< contact: beads that touch and were never bonded
 
-  double strain = 0.0, stress = 0.0;                       ///< -, Pa
+  double strain = 0.0, stress = 0.0;                       ///< -, Pa; NaN: not known
   double platen_bottom = 0.0, platen_top = 0.0;            ///< m
   double specimen_diameter = 0.0;                          ///< before loading, m
   std::vector<Vec3> position, displacement;                ///< m; position is the current one

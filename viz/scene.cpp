@@ -309,8 +309,8 @@ double picture_share(vtkRenderer* renderer, PictureSize size, double length) {
 }
 
 std::string state_line(const Frame& frame, const Stage& stage) {
-  std::string line =
-      fmt::format("strain {:.2f} %,  stress {:.3f} MPa", 100.0 * frame.strain, 1e-6 * frame.stress);
+  std::string line = fmt::format("strain {:.2f} %", 100.0 * frame.strain);
+  if (std::isfinite(frame.stress)) line += fmt::format(",  stress {:.3f} MPa", 1e-6 * frame.stress);
   if (stage.band)
     line += fmt::format(",  shear band at {:.0f}\u00b0 to the axis",
                         stage.band->angle_to_axis() * 180.0 / std::numbers::pi);
