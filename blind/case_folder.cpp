@@ -88,7 +88,7 @@ std::string experiment_toml(const Split& split, const CasePlan& plan) {
 TrueTest tested(const CaseFolders& folders, const Split& split, const CasePlan& plan, const char* name,
                 const Sample& believed, std::uint64_t number, const fs::path& part) {
   const std::uint64_t seed = seed_of(packing_of(split, plan), number);
-  const Packing beads = true_beads(believed, seed, split);
+  const Packing beads = reported_beads(plan, split, believed, seed, number);
   write_beads(part / fmt::format("{}_beads.csv", name), measured_beads(beads, seed, split),
               {program_version(), "pendular blind make", 0, {}});
   return run_truth(plan, split, believed, beads, number, number == 0, folders.work(plan.name) / "run");

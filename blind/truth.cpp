@@ -45,6 +45,11 @@ CompressOptions hooks(const CasePlan& plan) {
   return options;
 }
 
+/// Of the draws in a specimen's test.
+std::uint64_t run_seed(const CasePlan& plan, std::uint64_t number) {
+  return random_bits(plan.seed, number) >> 1;
+}
+
 /// One test of a case's specimen.
 class Bench {
  public:
@@ -87,17 +92,18 @@ class Bench {
 
 }  // namespace
 
-Packing true_beads(const Sample& believed, std::uint64_t seed, const Split& split) {
+Packing reported_beads(const CasePlan& plan, const Split& split, const Sample& believed, std::uint64_t seed,
+                       std::uint64_t number) {
   Packing packing = generate_packing(believed, seed);
   for (auto& bead : packing.beads)
     bead.sigma_centre = split.sigma_centre, bead.sigma_diameter = split.sigma_diameter;
   packing.bridges = candidate_bridges(packing.beads, believed.bridges.cutoff * believed.beads.diameter);
-  return packing;
+  return effects::reading(packing, true_sample(plan, split, believed), run_seed(plan, number));
 }
 
-std::vector<Bead> measured_beads(const Packing& actual, std::uint64_t seed, const Split& split) {
+std::vector<Bead> measured_beads(const Packing& reported, std::uint64_t seed, const Split& split) {
   const std::uint64_t draws = random_bits(seed, 0x6d656173);
-  std::vector<Bead> beads = actual.beads;
+  std::vector<Bead> beads = reported.beads;
   for (std::size_t k = 0; k < beads.size(); ++k) {
     for (int axis = 0; axis < 3; ++axis)
       beads[k].centre[axis] += split.sigma_centre * random_normal(draws, 4 * k + static_cast<unsigned>(axis));
@@ -125,7 +131,7 @@ TrueTest run_truth(const CasePlan& plan, const Split& split, const Sample& belie
   TrueTest test;
   test.sample = true_sample(plan, split, believed);
   test.sample.compression.frames = 0.0;
-  const std::uint64_t seed = random_bits(plan.seed, number) >> 1;
+  const std::uint64_t seed = run_seed(plan, number);
   Packing packing = beads;
   if (!plan.mechanism.empty())
     if (const Mechanism& mechanism = find_mechanism(plan.mechanism, plan.name); mechanism.packing)

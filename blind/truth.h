@@ -9,11 +9,15 @@
 
 namespace pendular::blind {
 
-/// Beads of a specimen as they are, with the pairs below the cut-off as candidates; and as the tomogram shows
-/// them: with errors of the stated size. Functions of the seed and of what is believed of the specimen alone,
-/// so that all cases on it have the same.
-Packing true_beads(const Sample& believed, std::uint64_t seed, const Split& split);
-std::vector<Bead> measured_beads(const Packing& actual, std::uint64_t seed, const Split& split);
+/// Beads of a specimen as a tomogram without noise reports them, with the pairs truly below the cut-off as
+/// candidates: those of a packing whose beads touch, but for what the case's effects do to their measurement.
+/// Where these do nothing, a function of the seed and of what is believed of the specimen alone, so that all
+/// such cases on it have the same beads.
+Packing reported_beads(const CasePlan& plan, const Split& split, const Sample& believed, std::uint64_t seed,
+                       std::uint64_t number);
+
+/// With errors of the stated size.
+std::vector<Bead> measured_beads(const Packing& reported, std::uint64_t seed, const Split& split);
 
 /// The sample that is true of a case where this one is believed: with its offsets, its law and its effects.
 Sample true_sample(const CasePlan& plan, const Split& split, Sample believed);
@@ -26,7 +30,7 @@ struct TrueTest {
   std::vector<CurveRow> rows;      ///< strain and stress as read, not beyond the test's last strain
 };
 
-/// Compresses a specimen with all that is withheld, by the simulation itself; `number` tells a case's
+/// Compresses a specimen, given as reported, with all that is withheld, by the simulation itself; `number` tells a case's
 /// specimens apart. Tests end, and unload once where asked, at strains as the instruments read them.
 /// `scratch` is a folder for the runs, which is removed.
 TrueTest run_truth(const CasePlan& plan, const Split& split, const Sample& believed, const Packing& beads,

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "diagnosis/believed.h"
+#include "diagnosis/contact_features.h"
 #include "diagnosis/funicular.h"
 #include "diagnosis/specimens.h"
 #include "effects/list.h"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr int kGenerated = 5, kMeasured = 3;  // members of an ensemble
 constexpr double kMostBeads = 2000.0, kBankBeads = 1500.0;
+constexpr double kAbout = 1.5;  // of a magnitude that beads show, the largest in the bank
 constexpr double kModulusShare = 0.05, kFractionSd = 0.01;  // of believed inputs of which nothing is stated
 
 bool is_effect(const std::string& id) {
@@ -34,9 +36,15 @@ double moved(const Experiment& experiment, const Sample& sample, const std::stri
   return std::clamp(value, key_of(key).lowest, key_of(key).highest);
 }
 
-/// Magnitudes of an effect in the bank.
-std::vector<double> magnitudes_of(const effects::Effect& effect, int levels) {
+/// Magnitudes of an effect in the bank: about what the measured beads themselves show of it, where they do.
+std::vector<double> magnitudes_of(const effects::Effect& effect, int levels, const Experiment& experiment) {
   std::vector<double> found;
+  if (const auto shown =
+          experiment.contacts ? magnitude_shown(effect.id, *experiment.contacts) : std::nullopt) {
+    for (int k = 1; k <= levels; ++k)
+      found.push_back(std::clamp(kAbout * k / levels * *shown, effect.lowest, effect.highest));
+    return found;
+  }
   const bool both = effect.bank_from < 0.0 && effect.bank_to > 0.0;
   const int count = both ? std::max(2, levels - 1) : std::max(1, levels);
   for (int k = 1; k <= count; ++k) {
@@ -95,7 +103,7 @@ class Planner {
       } else if (const std::string why = why_inert(effect, plan_.conditions); !why.empty()) {
         plan_.absent[effect.id] = why;
       } else if (!reads_only(effect)) {
-        for (double theta : magnitudes_of(effect, options_.levels))
+        for (double theta : magnitudes_of(effect, options_.levels, experiment_))
           add({1 + turn++ % members, effect.id, theta, !scaled_});
         ++turn;
       }
@@ -161,7 +169,7 @@ sweep::RunRequest request_of(const Experiment& experiment, const Condition& cond
   const Condition sized = smaller(condition, size);
   sweep::RunRequest request;
   request.sample = changed_condition(experiment, sized, changes, size);
-  request.packing = beads_of_member(sized, member, beads_folder);
+  request.packing = beads_of_member(sized, member, request.sample, beads_folder);
   request.seed = static_cast<std::uint64_t>(member);
   request.keep_all = request.sample.compression.frames > 0.0;
   return request;

@@ -52,7 +52,8 @@ struct BankPlan {
   std::map<std::string, std::string> absent;  ///< effects without runs, and why
 };
 
-/// Baselines of every member; each effect at thirds of its range (in both directions where it has two) and
+/// Baselines of every member; each effect at thirds of its range (in both directions where it has two; of
+/// errors that the tables of beads show by themselves at thirds of one and a half of that) and
 /// each believed input at two standard deviations to both sides, on members in turn. Specimens of more than
 /// 2,000 beads that were not measured get a smaller one of the same shape, beside baselines of their own
 /// size. Effects that only change what instruments read need no runs.

@@ -15,9 +15,7 @@ constexpr int kGridOfOne = 121, kGridOfTwo = 31;
 constexpr double kUnknownSigmas[] = {1.5, 3.0, 6.0};
 constexpr double kLikeKnown = 0.25;  // of unknown mechanisms: as if an effect of the library acted
 
-// An effect's response is known to this share of itself: which bridges are missing is another matter than how
-// many, and a polynomial through three magnitudes is not the effect. Two effects do not quite add.
-constexpr double kResponse = 0.1, kTogether = 0.15;
+constexpr double kTogether = 0.15;  // of their geometric mean, by which two effects do not add
 
 /// Features in units of their noise, believed inputs included, and the likelihood there.
 class Whitened {
@@ -85,6 +83,7 @@ double log_sum(const std::vector<double>& terms) {
 struct Grid {
   std::vector<double> theta, log_prior;
   std::vector<Eigen::VectorXd> response;
+  std::vector<Eigen::VectorXd> variance;  // of the response
 };
 
 Grid grid_of(const Signature& signature, int points) {
@@ -96,6 +95,7 @@ Grid grid_of(const Signature& signature, int points) {
     const bool absent = std::fabs(theta) < signature.least;
     grid.log_prior.push_back(absent ? -std::numeric_limits<double>::infinity() : 0.0);
     grid.response.push_back(signature.at(theta));
+    grid.variance.push_back((signature.error * grid.response.back()).cwiseAbs2());
   }
   const double total = log_sum(grid.log_prior);
   for (double& log_prior : grid.log_prior) log_prior -= total;
@@ -149,7 +149,7 @@ Hypothesis single(const Signature& signature, const Whitened& space) {
   Hypothesis found{signature.id, 0.0, 0.0, {}, std::numeric_limits<double>::infinity()};
   std::vector<double> weight;
   for (std::size_t k = 0; k < grid.theta.size(); ++k) {
-    const auto fit = space.fit(grid.response[k], kResponse * kResponse * grid.response[k].cwiseAbs2());
+    const auto fit = space.fit(grid.response[k], grid.variance[k]);
     if (std::isfinite(grid.log_prior[k])) found.misfit = std::min(found.misfit, fit.misfit);
     weight.push_back(grid.log_prior[k] + fit.log_likelihood);
   }
@@ -162,13 +162,12 @@ Hypothesis pair(const std::string& id, const Grid& a, const Grid& b, const White
   Hypothesis found{id, 0.0, 0.0, {}, std::numeric_limits<double>::infinity()};
   std::vector<std::vector<double>> of_a(a.theta.size()), of_b(b.theta.size());
   std::vector<double> all;
-  constexpr double kEach = kResponse * kResponse, kBoth = kTogether * kTogether;
   for (std::size_t k = 0; k < a.theta.size(); ++k) {
     for (std::size_t l = 0; l < b.theta.size(); ++l) {
       const double log_prior = a.log_prior[k] + b.log_prior[l];
       const Eigen::VectorXd &one = a.response[k], &other = b.response[l];
-      const auto fit = space.fit(one + other, kEach * (one.cwiseAbs2() + other.cwiseAbs2()) +
-                                                  kBoth * one.cwiseProduct(other).cwiseAbs());
+      const auto fit = space.fit(one + other, a.variance[k] + b.variance[l] +
+                                                  kTogether * kTogether * one.cwiseProduct(other).cwiseAbs());
       if (std::isfinite(log_prior)) found.misfit = std::min(found.misfit, fit.misfit);
       all.push_back(log_prior + fit.log_likelihood);
       of_a[k].push_back(all.back());

@@ -15,6 +15,7 @@ struct Signature {
   double lowest = 0.0, highest = 0.0;  ///< of θ
   double scale = 0.0;                  ///< a usual |θ|
   double least = 0.0;                  ///< |θ| below which the effect counts as absent
+  double error = 0.1;                  ///< of each feature's response, as a share of it
 
   Eigen::VectorXd at(double theta) const {
     Eigen::VectorXd sum = theta * powers.back();  // Horner's scheme
@@ -57,9 +58,9 @@ struct Hypothesis {
 /// effect earns credit only for what they cannot absorb. The likelihood is the multivariate t of Sellentin &
 /// Heavens (2016, MNRAS 456, L132) where the covariance was estimated. Magnitudes are integrated over on a
 /// grid; a priori all in the signature's range are alike, those below its least one aside. A response is
-/// taken to be known to a tenth of itself, and two of them to add to 0.15 of their geometric mean. `unknown`
-/// is a residual without direction, of 1.5, 3 or 6 standard deviations of the noise per feature; or, one time
-/// in seven, something that does what a known effect would do.
+/// known to a share of itself (Signature::error), and two of them are taken to add to 0.15 of their geometric
+/// mean. `unknown` is a residual without direction, of 1.5, 3 or 6 standard deviations of the noise per
+/// feature; or, one time in seven, something that does what a known effect would do.
 std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& signatures,
                               const Priors& priors = {});
 

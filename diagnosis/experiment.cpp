@@ -9,6 +9,7 @@
 #include "base/toml_place.h"
 #include "diagnosis/believed.h"
 #include "diagnosis/plausible.h"
+#include "packing/tables.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -191,6 +192,12 @@ Experiment read_experiment(const fs::path& path) {
   if (experiment.name.empty()) experiment.name = path.stem().string();
   experiment.sample = read_sample(experiment.sample_file);
   for (auto& observation : experiment.observations) check_plausible(experiment, observation);
+  std::set<fs::path> files;
+  for (const auto& observation : experiment.observations)
+    if (!observation.beads.empty()) files.insert(observation.beads);
+  std::vector<std::vector<Bead>> tables;
+  for (const auto& one : files) tables.push_back(read_beads(one));
+  experiment.contacts = contact_peak(tables);
   return experiment;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/files.h"
 #include "base/sample.h"
+#include "packing/contact_peak.h"
 
 namespace pendular::diagnosis {
 
@@ -47,7 +48,8 @@ struct Experiment {
   std::map<std::string, double>
       uncertainty;  ///< one sd of a believed value, by dotted key, in the key's unit
   std::vector<Observation> observations;
-  std::vector<std::string> warnings;  ///< what was found odd but could be used
+  std::optional<ContactPeak> contacts;  ///< what the tables of beads show of their own errors
+  std::vector<std::string> warnings;    ///< what was found odd but could be used
 
   /// The sample of one observation; a stated stiffness follows its polymer (believed.h).
   Sample sample_of(const Observation& observation) const;

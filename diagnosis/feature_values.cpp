@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "diagnosis/contact_features.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -38,6 +39,13 @@ std::optional<Columns> series_columns(const Experiment& experiment, const std::v
   return columns_of_series(observation, points);
 }
 
+/// The first observation of a specimen whose beads were measured.
+std::size_t of_beads(const Experiment& experiment) {
+  std::size_t index = 0;
+  while (experiment.observations[index].beads.empty()) ++index;
+  return index;
+}
+
 }  // namespace
 
 Eigen::VectorXd ObservedFeatures::values() const {
@@ -55,6 +63,12 @@ ObservedFeatures observed_features(const Experiment& experiment) {
     all.features.insert(all.features.end(), features.begin(), features.end());
     all.sigmas.insert(all.sigmas.end(), sigmas.begin(), sigmas.end());
     all.observation.resize(all.features.size(), index);
+  }
+  if (!experiment.contacts) return all;
+  for (const auto& seen : contact_features(*experiment.contacts)) {
+    all.features.push_back(seen.feature);
+    all.sigmas.push_back(seen.sigma);
+    all.observation.push_back(of_beads(experiment));
   }
   return all;
 }
@@ -87,11 +101,12 @@ std::optional<Columns> simulated_columns(const Experiment& experiment,
 }
 
 void require_features(const Experiment& experiment) {
-  if (observed_features(experiment).features.empty())
-    bad_input(
-        "{}: the observations show nothing that can be compared, expected e.g. a compression that shows its "
-        "linear part",
-        experiment.name);
+  for (const auto& observation : experiment.observations)
+    if (!features_of(observation, observation.columns).empty()) return;
+  bad_input(
+      "{}: the observations show nothing that can be compared, expected e.g. a compression that shows its "
+      "linear part",
+      experiment.name);
 }
 
 Eigen::VectorXd simulated_features(const Experiment& experiment, const std::vector<Condition>& conditions,
@@ -99,14 +114,18 @@ Eigen::VectorXd simulated_features(const Experiment& experiment, const std::vect
                                    const Changes& changes) {
   Eigen::VectorXd values = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(observed.features.size()),
                                                      std::numeric_limits<double>::quiet_NaN());
+  const auto show = [&](const Feature& feature, std::size_t index) {
+    for (std::size_t k = 0; k < observed.features.size(); ++k)
+      if (observed.observation[k] == index && observed.features[k].name == feature.name)
+        values[static_cast<Eigen::Index>(k)] = compared(feature);
+  };
   for (std::size_t index = 0; index < experiment.observations.size(); ++index) {
-    const auto columns = simulated_columns(experiment, conditions, index, tests, changes);
-    if (!columns) continue;
-    for (const auto& feature : features_of(experiment.observations[index], *columns))
-      for (std::size_t k = 0; k < observed.features.size(); ++k)
-        if (observed.observation[k] == index && observed.features[k].name == feature.name)
-          values[static_cast<Eigen::Index>(k)] = compared(feature);
+    if (const auto columns = simulated_columns(experiment, conditions, index, tests, changes))
+      for (const auto& feature : features_of(experiment.observations[index], *columns)) show(feature, index);
   }
+  if (experiment.contacts)
+    for (const auto& expected : contact_features(expected_contacts(*experiment.contacts, changes)))
+      show(expected.feature, of_beads(experiment));
   return values;
 }
 

@@ -24,6 +24,7 @@ const std::map<std::string, double>& errors() {
       {"gap_mean_um", 0.3},         {"coordination", 0.01},
       {"bulk_strain_share", 0.02},  {"radial_share", 0.03},
       {"tilt_share", 0.02},         {"wandering", 0.05},
+      {"contact_gap_um", 0.0},      {"contact_variance_um2", 0.0},
       {"breaks_at_half", 0.4},      {"breaks_at_end", 0.2}};
   return all;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "diagnosis/contact_features.h"
 #include "diagnosis/model_error.h"
 #include "effects/list.h"
 
@@ -13,9 +14,12 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr std::size_t kMostFeatures = 20;
-constexpr double kShown = 0.8;                   // of runs that must show a feature
-constexpr double kBeyond = 1.3;                  // how far beyond its bank an effect may go
-constexpr double kScale = 0.5, kLeast = 0.15;    // usual and least magnitudes, over the bank's largest
+constexpr double kShown = 0.8;                 // of runs that must show a feature
+constexpr double kBeyond = 1.3;                // how far beyond its bank an effect may go
+constexpr double kScale = 0.5, kLeast = 0.15;  // usual and least magnitudes, over the bank's largest
+// Of responses: which bridges are missing is another matter than how many, and a polynomial through three
+// magnitudes is not the effect. Beads that were measured wrongly are only nearly found again.
+constexpr double kError = 0.1, kErrorOfBeads = 0.4;
 constexpr int kReadLevels = 6, kReadDegree = 4;  // of effects that only change what instruments read
 
 std::string label(const ObservedFeatures& observed, std::size_t k) {
@@ -115,6 +119,7 @@ class Learner {
       signature.highest = std::min(effect.highest, kBeyond * effect.bank_to);
       const double largest = std::max(std::fabs(effect.bank_from), std::fabs(effect.bank_to));
       signature.scale = kScale * largest, signature.least = kLeast * largest;
+      signature.error = effect.beads ? kErrorOfBeads : kError;
       problem_.signatures.push_back(std::move(signature));
     }
   }
@@ -193,6 +198,8 @@ class Learner {
       for (const auto& signature : problem_.signatures)
         most = std::max(most, std::fabs(signature.at(signature.scale)[at]));
       moved.emplace_back(-most / std::sqrt(problem_.gap.covariance(at, at)), f);
+      if (is_of_beads(problem_.observed.features[f]))
+        moved.back().first = -HUGE_VAL;  // nothing else tells that
     }
     std::sort(moved.begin(), moved.end());
     std::vector<std::size_t> kept;

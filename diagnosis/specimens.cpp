@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "effects/compress.h"
+#include "effects/list.h"
 #include "packing/bridges.h"
 #include "packing/statistics.h"
 #include "packing/tables.h"
@@ -44,13 +46,14 @@ void move_beads(std::vector<Bead>& beads, std::uint64_t seed) {
   }
 }
 
-Packing measured_packing(const Condition& condition, int member) {
+/// The measured packing that the effects of `changed` make into the likeliest specimen where they hold.
+Packing measured_packing(const Condition& condition, int member, const Sample& changed) {
   const Sample& sample = condition.sample;
   Packing packing;
   packing.beads = read_beads(condition.beads);
   check_beads_of(condition, packing.beads);
   if (member > 1 && member < kFirstFresh) move_beads(packing.beads, static_cast<std::uint64_t>(member));
-  packing.beads = closed_contacts(std::move(packing.beads));
+  packing.beads = closed_contacts(effects::actual_beads(std::move(packing.beads), changed));
   packing.specimen = specimen_around(packing.beads, sample.specimen.diameter, sample.specimen.height);
   flag_boundary(packing);
   packing.bridges = candidate_bridges(packing.beads, sample.bridges.cutoff * sample.beads.diameter);
@@ -58,18 +61,27 @@ Packing measured_packing(const Condition& condition, int member) {
                         fmt::format("pendular diagnose: member {}", member),
                         static_cast<std::uint64_t>(member),
                         {}};
-  return packing;
+  return effects::reading(packing, changed, static_cast<std::uint64_t>(member));
+}
+
+/// What the effects on the measurement of beads do to the packing, in words; empty: nothing.
+std::string measured_otherwise(const Sample& changed) {
+  std::string words;
+  for (const auto& [id, theta] : changed.effects)
+    if (effects::find_effect(id, "diagnosis").beads) words += fmt::format(" {} {}", id, theta);
+  return words;
 }
 
 }  // namespace
 
-sweep::PackingSource beads_of_member(const Condition& condition, int member, const fs::path& folder) {
+sweep::PackingSource beads_of_member(const Condition& condition, int member, const Sample& changed,
+                                     const fs::path& folder) {
   if (condition.beads.empty()) return sweep::generated_packing(static_cast<std::uint64_t>(member));
-  const Packing packing = measured_packing(condition, member);
+  const Packing packing = measured_packing(condition, member, changed);
   const auto& s = condition.sample;
-  const std::string name =
-      sha256(fmt::format("touching {} {} {} {} {} {}", sha256_of(condition.beads), member,
-                         s.specimen.diameter, s.specimen.height, s.bridges.cutoff, s.beads.diameter));
+  const std::string name = sha256(
+      fmt::format("closed {} {} {} {} {} {}{}", sha256_of(condition.beads), member, s.specimen.diameter,
+                  s.specimen.height, s.bridges.cutoff, s.beads.diameter, measured_otherwise(changed)));
   const fs::path path = folder / (name.substr(0, 16) + ".vtp");
   make_folder(folder);
   if (!fs::exists(path)) write_packing(path, packing);

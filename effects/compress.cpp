@@ -108,6 +108,12 @@ ActualSpecimen actual_specimen(const Packing& measured, const Sample& believed, 
   return specimen;
 }
 
+std::vector<Bead> actual_beads(std::vector<Bead> measured, const Sample& believed) {
+  for (const auto& [effect, theta, draws] : active_effects(believed, 0))
+    if (effect->beads) effect->beads(measured, theta);
+  return measured;
+}
+
 Packing reading(const Packing& actual, const Sample& believed, std::uint64_t seed) {
   Packing packing = actual;
   auto active = active_effects(believed, seed);

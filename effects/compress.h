@@ -10,8 +10,11 @@ namespace pendular::effects {
 /// effect or a magnitude out of range.
 ActualSpecimen actual_specimen(const Packing& measured, const Sample& believed, std::uint64_t seed);
 
-/// What the measurement would report of a packing that is: the inverse of how measurement enters
-/// actual_specimen().
+/// What measured beads are taken to be where the sample's effects hold (Effect::beads).
+std::vector<Bead> actual_beads(std::vector<Bead> measured, const Sample& believed);
+
+/// What the measurement would report of a packing that is: the inverse of how the measurement of single beads
+/// enters actual_specimen().
 Packing reading(const Packing& actual, const Sample& believed, std::uint64_t seed);
 
 /// It between its platens, before its test: build_simulation() and the effects on it.

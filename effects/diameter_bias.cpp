@@ -3,9 +3,13 @@
 namespace pendular::effects {
 namespace {
 
-void widen(Packing& packing, double by) {
-  for (auto& bead : packing.beads) bead.diameter += by;
-  for (auto& bridge : packing.bridges) bridge.gap -= by;
+void beads(std::vector<Bead>& beads, double theta) {
+  for (auto& bead : beads) bead.diameter -= 1e-6 * theta;
+}
+
+void shrink(Packing& packing, double theta) {
+  beads(packing.beads, theta);
+  for (auto& bridge : packing.bridges) bridge.gap += 1e-6 * theta;
 }
 
 void sample(Sample& sample, double theta) {
@@ -13,11 +17,11 @@ void sample(Sample& sample, double theta) {
 }
 
 void truth(Packing& packing, double theta, const Draws&) {
-  widen(packing, -1e-6 * theta);
+  shrink(packing, theta);
 }
 
 void reading(Packing& packing, double theta, const Draws&) {
-  widen(packing, 1e-6 * theta);
+  shrink(packing, -theta);
 }
 
 }  // namespace
@@ -34,6 +38,7 @@ Effect diameter_bias() {
           .bank_from = -4.0,
           .bank_to = 4.0,
           .sample = sample,
+          .beads = beads,
           .truth = truth,
           .reading = reading};
 }

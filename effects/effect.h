@@ -61,7 +61,11 @@ struct Effect {
   bool of_the_ends = false;   ///< θ is a length that counts as a share of the specimen's size
   /// What the sample file states otherwise than it is.
   void (*sample)(Sample& sample, double theta) = nullptr;
-  /// From the beads and bridges as measured to those that are, before diameters are drawn; and back.
+  /// What beads that were measured are taken to be, with their standard errors: of effects on how single
+  /// beads are measured, for whoever knows their table only (closed_contacts()).
+  void (*beads)(std::vector<Bead>& beads, double theta) = nullptr;
+  /// From the beads and bridges as measured to those that are, before diameters are drawn; and back, of those
+  /// effects that say what measured beads are taken to be.
   void (*truth)(Packing& packing, double theta, const Draws& draws) = nullptr;
   void (*reading)(Packing& packing, double theta, const Draws& draws) = nullptr;
   /// What becomes of the packing that is.

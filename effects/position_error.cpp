@@ -5,6 +5,10 @@
 namespace pendular::effects {
 namespace {
 
+void beads(std::vector<Bead>& beads, double theta) {
+  for (auto& bead : beads) bead.sigma_centre = std::hypot(bead.sigma_centre, 1e-6 * theta);
+}
+
 void move(Packing& packing, double way, const Draws& draws) {
   for (std::size_t k = 0; k < packing.beads.size(); ++k)
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -13,10 +17,8 @@ void move(Packing& packing, double way, const Draws& draws) {
 }
 
 void truth(Packing& packing, double theta, const Draws& draws) {
-  const double sigma = 1e-6 * theta;
-  move(packing, sigma, draws);
-  for (auto& bead : packing.beads)
-    bead.sigma_centre = std::sqrt(bead.sigma_centre * bead.sigma_centre + sigma * sigma);
+  move(packing, 1e-6 * theta, draws);
+  beads(packing.beads, theta);
 }
 
 void reading(Packing& packing, double theta, const Draws& draws) {
@@ -37,6 +39,7 @@ Effect position_error() {
           .highest = 20.0,
           .bank_from = 0.0,
           .bank_to = 5.0,
+          .beads = beads,
           .truth = truth,
           .reading = reading};
 }

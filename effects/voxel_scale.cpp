@@ -26,10 +26,6 @@ void truth(Packing& packing, double theta, const Draws&) {
   scale(packing, 1.0 / (1.0 + theta));
 }
 
-void reading(Packing& packing, double theta, const Draws&) {
-  scale(packing, 1.0 + theta);
-}
-
 void rows(std::vector<CurveRow>& rows, const Gauge&, double theta) {
   for (auto& row : rows) {
     row.strain /= 1.0 + theta;
@@ -55,7 +51,6 @@ Effect voxel_scale() {
           .bank_to = 0.05,
           .sample = sample,
           .truth = truth,
-          .reading = reading,
           .rows = rows};
 }
 

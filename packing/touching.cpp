@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kNear = 3.0, kFar = 6.0;  // standard errors between which pairs are taken to be apart
 constexpr int kRounds = 4, kSweeps = 400;
-constexpr double kClosed = 1e-3;  // of a standard error
+constexpr double kClosed = 1e-3;       // of a standard error
+constexpr double kLeastOnPlane = 5.0;  // beads
 
 /// Share of pairs truly apart that are measured to overlap: ∫ Φ(−u) du from zero.
 const double kSeenOverlapping = 1.0 / std::sqrt(2.0 * M_PI);
@@ -35,6 +36,63 @@ double close(Bead& a, Bead& b, double sigma_gap) {
   a.diameter += 0.5 * step * a.sigma_diameter * a.sigma_diameter;
   b.diameter += 0.5 * step * b.sigma_diameter * b.sigma_diameter;
   return std::fabs(off) / sigma_gap;
+}
+
+/// One flat end of a specimen: height counts from outside, along `way` (1: from below, −1: from above).
+struct End {
+  double way = 1.0, height = 0.0;
+  std::vector<std::size_t> touching;
+
+  double of(const Bead& bead) const { return way * bead.centre.z() - 0.5 * bead.diameter; }
+};
+
+double sigma_of_end(const Bead& bead) {
+  return std::hypot(bead.sigma_centre, 0.5 * bead.sigma_diameter);
+}
+
+/// Moves a bead until it touches the end. Returns what was off, in standard errors.
+double close(Bead& bead, const End& end) {
+  const double sigma = sigma_of_end(bead), off = end.of(bead) - end.height, step = off / (sigma * sigma);
+  bead.centre.z() -= end.way * step * bead.sigma_centre * bead.sigma_centre;
+  bead.diameter += 0.5 * step * bead.sigma_diameter * bead.sigma_diameter;
+  return std::fabs(off) / sigma;
+}
+
+/// Counts of beads at an end at some height, by how far they are from it in standard errors.
+TouchLikelihood likelihood_at(const End& end, const std::vector<Bead>& beads) {
+  TouchLikelihood found;
+  double far = 0.0;
+  for (const auto& bead : beads) {
+    const double u = (end.of(bead) - end.height) / sigma_of_end(bead);
+    found.touching += u < kNear;
+    far += u >= kNear && u < kFar;
+  }
+  found.apart_per_sigma = far / (kFar - kNear);
+  found.touching = std::max(0.0, found.touching - (kNear + kSeenOverlapping) * found.apart_per_sigma);
+  return found;
+}
+
+/// The plane on which the outermost beads lie, as their mean: of those that likely touch it. None touch where
+/// the end is not flat.
+End flat_end(const std::vector<Bead>& beads, double way) {
+  End end{way, 0.0, {}};
+  std::vector<double> heights;
+  for (const auto& bead : beads) heights.push_back(end.of(bead));
+  std::sort(heights.begin(), heights.end());
+  end.height = heights[std::min<std::size_t>(heights.size() - 1, static_cast<std::size_t>(kLeastOnPlane))];
+  for (int round = 0; round < 10 * kRounds; ++round) {
+    const TouchLikelihood likelihood = likelihood_at(end, beads);
+    end.touching.clear();
+    double sum = 0.0;
+    for (std::size_t k = 0; k < beads.size(); ++k) {
+      const double off = end.of(beads[k]) - end.height, sigma = sigma_of_end(beads[k]);
+      if (!(sigma > 0.0) || off > kNear * sigma || !likelihood.touches(std::fabs(off), sigma)) continue;
+      end.touching.push_back(k), sum += off;
+    }
+    if (static_cast<double>(end.touching.size()) < kLeastOnPlane) return {way, -HUGE_VAL, {}};
+    end.height += sum / static_cast<double>(end.touching.size());
+  }
+  return end;
 }
 
 }  // namespace
@@ -68,9 +126,10 @@ std::vector<Bead> closed_contacts(std::vector<Bead> beads) {
   const double sigma = largest_sigma(beads);
   if (!(sigma > 0.0)) return beads;
   const TouchLikelihood likelihood = touch_likelihood(beads);
-  // By the gaps as they were measured; later rounds add only beads that have come to overlap.
   std::vector<Bridge> touching = candidate_bridges(beads, kFar * sigma);
   std::erase_if(touching, [&](const Bridge& pair) { return !likelihood.touches(pair.gap, pair.sigma_gap); });
+  const std::vector<End> ends = {flat_end(beads, 1.0), flat_end(beads, -1.0)};
+  // By the gaps as they were measured; later rounds add only beads that have come to overlap.
   std::set<std::pair<int, int>> known;
   for (int round = 0; round < kRounds; ++round) {
     std::erase_if(touching, [](const Bridge& pair) { return !(pair.sigma_gap > 0.0); });
@@ -79,6 +138,8 @@ std::vector<Bead> closed_contacts(std::vector<Bead> beads) {
       double worst = 0.0;
       for (const auto& pair : touching)
         worst = std::max(worst, close(beads[pair.i], beads[pair.j], pair.sigma_gap));
+      for (const auto& end : ends)
+        for (const std::size_t k : end.touching) worst = std::max(worst, close(beads[k], end));
       if (worst < kClosed) break;
     }
     std::vector<Bridge> more = candidate_bridges(beads, -kClosed * sigma);

@@ -19,7 +19,8 @@ struct TouchLikelihood {
 };
 TouchLikelihood touch_likelihood(const std::vector<Bead>& beads);
 
-/// The likeliest beads, given that those touch which likely do: centres and diameters moved as little as can
+/// The likeliest beads, given that those touch which likely do, each other and the flat ends along z that at
+/// least five lie on: centres and diameters moved as little as can
 /// be, in units of their stated standard errors, until these gaps are closed (Kaczmarz 1937, projections in
 /// that metric). Beads without stated errors stay where they are.
 std::vector<Bead> closed_contacts(std::vector<Bead> beads);

@@ -93,7 +93,7 @@ class Children {
           fmt::format("its process was killed by signal {} ({}){}", WTERMSIG(status),
                       ::strsignal(WTERMSIG(status)), words.empty() ? "" : "; it last said: " + words));
     else if (WEXITSTATUS(status) == 127)
-      store_.fail(hash, 127, fmt::format("{}: cannot be started", program_.string()));
+      throw ComputationFailed(fmt::format("{}: cannot be started", program_.string()));  // the run stays open
     else if (WEXITSTATUS(status) != 0 && WEXITSTATUS(status) != 130)
       store_.fail(hash, WEXITSTATUS(status), words);
   }

@@ -117,7 +117,7 @@ TEST_F(Case, AnotherSplitsCaseIsRefused) {
 
 TEST_F(Case, MeasuredBeadsAreOffByTheStatedErrors) {
   Sample believed = believed_a(*split, split->packings[0]);
-  const Packing actual = true_beads(believed, 3, *split);
+  const Packing actual = reported_beads({}, *split, believed, 3, 0);
   const auto measured = measured_beads(actual, 3, *split);
   double square = 0.0, diameters = 0.0;
   for (std::size_t k = 0; k < measured.size(); ++k) {
@@ -128,6 +128,29 @@ TEST_F(Case, MeasuredBeadsAreOffByTheStatedErrors) {
   const double n = static_cast<double>(measured.size());
   EXPECT_NEAR(std::sqrt(square / n), split->sigma_centre, 0.2 * split->sigma_centre);
   EXPECT_NEAR(std::sqrt(diameters / n), split->sigma_diameter, 0.3 * split->sigma_diameter);
+}
+
+TEST_F(Case, BeadsAreReportedWithTheErrorThatIsWithheld) {
+  const Sample believed = believed_a(*split, split->packings[0]);
+  const Packing actual = reported_beads({}, *split, believed, 3, 0);
+  for (const auto& [effect, theta] : {std::pair("diameter_bias", 2.0), {"position_error", 3.0}}) {
+    CasePlan plan;
+    plan.effects = {{effect, theta}};
+    const Packing reported = reported_beads(plan, *split, believed, 3, 0);
+    const bool bias = effect == std::string("diameter_bias");
+    double moved = 0.0, wider = 0.0;
+    for (std::size_t k = 0; k < actual.beads.size(); ++k) {
+      moved += (reported.beads[k].centre - actual.beads[k].centre).squaredNorm() / 3.0;
+      wider += reported.beads[k].diameter - actual.beads[k].diameter;
+    }
+    const double n = static_cast<double>(actual.beads.size());
+    EXPECT_NEAR(std::sqrt(moved / n), bias ? 0.0 : 3e-6, 0.3e-6);
+    EXPECT_NEAR(wider / n, bias ? 2e-6 : 0.0, 1e-12);
+    // The specimen that is tested has beads that touch.
+    const TrueTest test = run_truth(plan, *split, believed, reported, 0, false, root / "scratch");
+    for (std::size_t k = 0; k < actual.beads.size(); ++k)
+      EXPECT_LT((test.packing.beads[k].centre - actual.beads[k].centre).norm(), 1e-12);
+  }
 }
 
 TEST_F(Case, TruthIsOffTheBeliefByItsOffsets) {

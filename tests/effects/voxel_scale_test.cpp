@@ -3,16 +3,14 @@
 namespace pendular::effects::test {
 namespace {
 
-TEST(VoxelScale, LengthsAreSmallerThanMeasuredAndReadAsThey) {
+TEST(VoxelScale, LengthsAreSmallerThanMeasured) {
   const Sample sample = with("voxel_scale", 0.05);
   const Packing measured = disordered(4, 4);
   const auto specimen = actual_specimen(measured, sample, 1);
   EXPECT_NEAR(specimen.packing.beads[7].diameter * 1.05, measured.beads[7].diameter, 1e-15);
   EXPECT_LT((specimen.packing.beads[7].centre * 1.05 - measured.beads[7].centre).norm(), 1e-15);
   EXPECT_NEAR(specimen.sample.specimen.diameter * 1.05, sample.specimen.diameter, 1e-15);
-  const Packing read = reading(specimen.packing, sample, 1);
-  EXPECT_NEAR(read.beads[7].diameter, measured.beads[7].diameter, 1e-15);
-  EXPECT_NEAR(read.bridges[7].gap, measured.bridges[7].gap, 1e-15);
+  EXPECT_NEAR(specimen.packing.bridges[7].gap * 1.05, measured.bridges[7].gap, 1e-15);
 }
 
 TEST(VoxelScale, LeavesTheModulusThatStatedBondsGive) {

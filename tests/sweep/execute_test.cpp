@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "dem_core/compress.h"
 #include "packing/bridges.h"
 #include "packing/generate.h"
@@ -70,19 +71,19 @@ TEST(Execute, EqualRequestsAreMadeOnceAndAnsweredEach) {
             sha256_of(store.packing_path(packing_hash(tiny_request(4)))));
 }
 
-TEST(Execute, AProgramThatCannotDoItIsAFailedRunNotAnEndlessLoop) {
+TEST(Execute, AProgramThatCannotDoItEndsTheLoop) {
   ScratchFolder folder;
   Store store(folder / "store");
   ExecuteOptions options;
   options.program = folder / "absent";
-  auto outcomes = execute(store, std::vector{tiny_request(1)}, options);
-  EXPECT_EQ(outcomes[0].status, RunStatus::failed);
-  EXPECT_NE(outcomes[0].message.find("cannot be started"), std::string::npos);
+  EXPECT_THROW(execute(store, std::vector{tiny_request(1)}, options), ComputationFailed);
+  options = with_program();  // which says nothing of the run
+  EXPECT_EQ(execute(store, std::vector{tiny_request(1)}, options)[0].status, RunStatus::done);
 
   write_text(folder / "killed", "#!/bin/sh\necho out of luck >&2\nkill -9 $$\n");
   fs::permissions(folder / "killed", fs::perms::owner_all);
   options.program = folder / "killed";
-  outcomes = execute(store, std::vector{tiny_request(2)}, options);
+  const auto outcomes = execute(store, std::vector{tiny_request(2)}, options);
   EXPECT_EQ(outcomes[0].status, RunStatus::failed);
   EXPECT_EQ(outcomes[0].exit_status, 137);
   EXPECT_NE(outcomes[0].message.find("killed by signal 9"), std::string::npos) << outcomes[0].message;
