@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <opencv2/imgcodecs.hpp>
 
 #include "balls.h"
 #include "base/random.h"
 #include "packing/bridges.h"
 #include "packing/generate.h"
+#include "scratch.h"
 #include "segmentation/crevice.h"
 #include "segmentation/neck_statistics.h"
 #include "segmentation/phantom.h"
+#include "segmentation/qa.h"
 #include "segmentation/segment.h"
 
 namespace pendular {
@@ -36,12 +39,16 @@ const Packing& truth() {
   return packing;
 }
 
-Segmentation measured(double contrast, double noise, double false_discoveries = 0.05) {
+Volume phantom(double contrast, double noise) {
   Sample::Phantom look;
   look.voxel = 5e-6, look.noise = noise, look.correlated_noise = 0.0, look.polymer_contrast = contrast;
+  return make_phantom(truth(), look, 2);
+}
+
+Segmentation measured(double contrast, double noise, double false_discoveries = 0.05) {
   SegmentOptions options;
   options.bridges = {false_discoveries, true};
-  return segment(make_phantom(truth(), look, 2), options);
+  return segment(phantom(contrast, noise), options);
 }
 
 const Segmentation& result_at_low_noise() {
@@ -130,6 +137,20 @@ TEST(BridgeSearch, FindsTheNecksThatItPutsIn) {
     EXPECT_NEAR(size.measured, size.diameter, 0.05 * size.diameter);
     EXPECT_LT(size.rms_error, 0.08 * size.diameter);
   }
+}
+
+TEST(BridgeSearch, ShowsWhatItSaw) {
+  const pendular::test::ScratchFolder folder;
+  write_qa(folder.path(), phantom(0.3, 0.1), result_at_low_noise());
+  for (const char* name : {"contacts.png", "mean_residuals.png", "recovery.png"})
+    EXPECT_GT(fs::file_size(folder / name), 2000u) << name;
+  // Where the necks are, the mean over bridges is brighter than that over pairs without.
+  const cv::Mat mean = cv::imread((folder / "mean_residuals.png").string(), cv::IMREAD_GRAYSCALE);
+  const int side = (mean.cols - 20) / 2;
+  const auto about_the_neck = [&](int left) {
+    return cv::mean(mean(cv::Rect(left + side * 47 / 100, 30 + side / 4, side * 6 / 100, side / 8)))[0];
+  };
+  EXPECT_GT(about_the_neck(0), about_the_neck(side + 20) + 15.0);
 }
 
 TEST(BridgeSearch, KeepsTheShareOfFalseDiscoveriesInNoise) {
