@@ -20,6 +20,7 @@
 #include "base/interrupt.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "segmentation/phoenix.h"
 #include "segmentation/volume.h"
 
 namespace pendular {
@@ -378,6 +379,21 @@ Volume read_raw(const fs::path& path, const ReadOptions& options) {
   return volume;
 }
 
+/// A GE phoenix volume, by its .pcr or by the .vol beside one.
+Volume read_phoenix(const fs::path& path, ReadOptions options) {
+  const PhoenixVolume phoenix = read_pcr(fs::path(path).replace_extension(".pcr"));
+  options.raw_size = phoenix.size;
+  options.raw_type = phoenix.type;
+  if (!options.spacing) options.spacing = phoenix.spacing;
+  return read_raw(path.extension() == ".vol" ? path : phoenix.data, options);
+}
+
+/// Whether a file is a GE phoenix reconstruction.
+bool is_phoenix(const fs::path& path) {
+  return path.extension() == ".pcr" ||
+         (path.extension() == ".vol" && fs::exists(fs::path(path).replace_extension(".pcr")));
+}
+
 /// Every grey value a number, and more than one of them.
 void check_pixels(const Volume& volume, const fs::path& path) {
   with_pixels(volume, [&](auto pixels) {
@@ -412,6 +428,7 @@ Volume read_volume(const fs::path& path, const ReadOptions& options) {
     throw BadUsage("--size: found a folder of slices, expected headerless data");
   Volume volume = fs::is_directory(path) ? read_slices(path, options)
                   : options.raw_size     ? read_raw(path, options)
+                  : is_phoenix(path)     ? read_phoenix(path, options)
                                          : read_one_file(path, options);
   check_pixels(volume, path);
   return volume;

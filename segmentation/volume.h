@@ -49,7 +49,8 @@ struct ReadOptions {
 };
 
 /// Reads MetaImage (.mha, .mhd), NRRD, multi-page TIFF, a folder of TIFF or PNG slices in the natural order
-/// of their names (z rising), or, with `raw_size`, a headerless file. Lengths in a header count as µm, unless
+/// of their names (z rising), a GE phoenix volume (.pcr, or .vol beside one), or, with `raw_size`, a headerless
+/// file. Lengths in a header count as µm, unless
 /// an NRRD names another unit; spacing 1 or none means unknown: 1 µm, with a warning. BadInput, in one line,
 /// for whatever does not hold a grey volume of cubic voxels: truncated data, a header that does not match it,
 /// a missing slice, slices of several sizes, colours, other pixel types, NaN or infinity, or one grey value

@@ -30,6 +30,12 @@ TEST(Mutation, NoDamageToAVolumeCrashesItsReader) {
       "5 5 5\n\n" +
       mha.substr(mha.size() - 2 * 9 * 8 * 7);
   read_mutations(folder / "v.nrrd", nrrd, 400, [](const fs::path& path) { read_volume(path); });
+
+  write_text(folder / "v.vol", mha.substr(mha.size() - 2 * 9 * 8 * 7));
+  const std::string pcr =
+      "[VolumeData]\nVOL_File=v.vol\nVoxelSizeRec=0.005\nFormat=5\nVolume_SizeX=9\nVolume_SizeY=8\nVolume_"
+      "SizeZ=7\n";
+  read_mutations(folder / "v.pcr", pcr, 400, [](const fs::path& path) { read_volume(path); });
 }
 
 }  // namespace

@@ -57,6 +57,53 @@ TEST(Volume, MetaImageComesBackAsItWas) {
   }
 }
 
+std::string pcr(const std::string& format, const std::string& voxel = "0.0025") {
+  return "[ImageData]\nPCA_File=D:\\scan\\beads.pca\n[VolumeData]\nVOL_File=D:\\scan\\beads_rec.vol\n"
+         "VoxelSizeRec=" +
+         voxel + "\nFormat=" + format +
+         "\nVolume_SizeX=5\nVolume_SizeY=4\nVolume_SizeZ=3\n[Geometry]\nVoxelSizeX=0.1\n";
+}
+
+TEST(Volume, PhoenixVolumeByEitherOfItsFiles) {
+  const ScratchFolder folder;
+  const Volume volume = ramp();
+  write_text(folder / "beads.pcr", pcr("5"));
+  write_bytes(folder / "beads.vol", bytes_of(volume));
+  for (const char* name : {"beads.pcr", "beads.vol"}) {
+    const Volume read = read_volume(folder / name);
+    EXPECT_EQ(read.pixels, volume.pixels) << name;
+    EXPECT_EQ(read.size, volume.size) << name;
+    EXPECT_NEAR(read.spacing, 2.5e-6, 1e-15) << name;
+  }
+  // Under the name that the parameters give, whatever folder they name; with another voxel size.
+  fs::rename(folder / "beads.vol", folder / "beads_rec.vol");
+  ReadOptions options;
+  options.spacing = 5e-6;
+  EXPECT_DOUBLE_EQ(read_volume(folder / "beads.pcr", options).spacing, 5e-6);
+  const std::vector<float> pixels(60, 1.5F);
+  Volume floats{volume.size, 1e-6, Vec3::Zero(), pixels};
+  std::get<std::vector<float>>(floats.pixels)[7] = -2.0F;
+  write_text(folder / "beads.pcr", pcr("10"));
+  write_bytes(folder / "beads_rec.vol", bytes_of(floats));
+  EXPECT_EQ(read_volume(folder / "beads.pcr").pixels, floats.pixels);
+}
+
+TEST(Volume, BadPhoenixFilesAreNamed) {
+  const ScratchFolder folder;
+  write_text(folder / "a.pcr", pcr("5"));
+  EXPECT_NE(error_of(folder / "a.pcr").find("a.vol"), std::string::npos);  // not there
+  write_bytes(folder / "a.vol", "too short");
+  EXPECT_NE(error_of(folder / "a.pcr").find("expected 120"), std::string::npos) << error_of(folder / "a.pcr");
+  write_text(folder / "a.pcr", pcr("7"));
+  EXPECT_NE(error_of(folder / "a.pcr").find("Format"), std::string::npos);
+  write_text(folder / "a.pcr", pcr("5", "nan"));
+  EXPECT_NE(error_of(folder / "a.pcr").find("VoxelSizeRec"), std::string::npos);
+  write_text(folder / "a.pcr", "[VolumeData]\nVolume_SizeX=1e9\n");
+  EXPECT_NE(error_of(folder / "a.pcr").find("Volume_SizeX"), std::string::npos);
+  write_text(folder / "a.pcr", std::string(3000, '\xff'));
+  EXPECT_NE(error_of(folder / "a.pcr").find("Volume_SizeX"), std::string::npos);
+}
+
 TEST(Volume, HeaderlessData) {
   const ScratchFolder folder;
   const Volume volume = ramp();
