@@ -5,6 +5,7 @@
 #include "packing/bridges.h"
 #include "packing/generate.h"
 #include "packing/statistics.h"
+#include "packing/structure.h"
 #include "packing/tables.h"
 #include "packing/vtp.h"
 
@@ -88,6 +89,7 @@ void run(const PackOptions& options) {
   const PackingStatistics statistics =
       packing_statistics(packing, sample.bridges.cutoff * sample.beads.diameter);
   nlohmann::ordered_json json = to_json(statistics);
+  json["structure"] = to_json(structure_of(packing));
   json["provenance"] = to_json(packing.provenance);
   write_packing(options.common.out, packing);
   write_text(fs::path(options.common.out).replace_extension(".json"), json.dump(2) + "\n");
