@@ -137,7 +137,7 @@ void add_segment(CLI::App& app) {
       "MetaImage or NRRD count as um (an NRRD may name another unit); TIFF and PNG need --voxel-um.");
   command
       ->add_option("volume", options->volume,
-                   "MetaImage, NRRD, multi-page TIFF, folder of TIFF or PNG slices, GE phoenix .pcr or .vol, or raw data")
+                   "MetaImage, NRRD, multi-page TIFF, folder of TIFF, PNG or DICOM slices, GE phoenix .pcr or .vol, or raw data")
       ->required();
   add_common(*command, options->common, "Beads (beads.csv); a summary goes beside it as .json");
   command->add_option("--voxel-um", options->voxel_um, "Edge of a voxel, um; overrides the header's")

@@ -49,12 +49,12 @@ struct ReadOptions {
 };
 
 /// Reads MetaImage (.mha, .mhd), NRRD, multi-page TIFF, a folder of TIFF or PNG slices in the natural order
-/// of their names (z rising), a GE phoenix volume (.pcr, or .vol beside one), or, with `raw_size`, a headerless
-/// file. Lengths in a header count as µm, unless
-/// an NRRD names another unit; spacing 1 or none means unknown: 1 µm, with a warning. BadInput, in one line,
-/// for whatever does not hold a grey volume of cubic voxels: truncated data, a header that does not match it,
-/// a missing slice, slices of several sizes, colours, other pixel types, NaN or infinity, or one grey value
-/// throughout.
+/// of their names (z rising), DICOM (a series in a folder, or a file of several frames; lengths in mm), a GE
+/// phoenix volume (.pcr, or .vol beside one; mm), or, with `raw_size`, a headerless file. Other lengths in a
+/// header count as µm, unless an NRRD names another unit; spacing 1 or none means unknown: 1 µm, with a
+/// warning. BadInput, in one line, for whatever does not hold a grey volume of cubic voxels: truncated data,
+/// a header that does not match it, a missing slice, slices of several sizes, colours, other pixel types, NaN
+/// or infinity, or one grey value throughout.
 Volume read_volume(const fs::path& path, const ReadOptions& options = {});
 
 /// Writes a MetaImage (.mha) whole or not at all, uncompressed, lengths in µm, provenance in its header.

@@ -1,0 +1,65 @@
+#pragma once
+
+// Files of images through ITK, with one line for whatever is wrong with them. Internal to segmentation.
+
+#include "segmentation/itk_images.h"
+
+#include "base/error.h"
+#include "segmentation/volume.h"
+
+namespace pendular {
+
+/// Sends standard error nowhere while a library works that prints its own warnings there: the user is to read
+/// one line.
+class QuietLibraries {
+ public:
+  QuietLibraries();
+  ~QuietLibraries();
+  QuietLibraries(const QuietLibraries&) = delete;
+  QuietLibraries& operator=(const QuietLibraries&) = delete;
+
+ private:
+  int saved_;
+};
+
+std::string lower_extension(const fs::path& path);
+
+/// Everything before the first line break.
+std::string first_line(const char* text);
+
+/// Runs a call into ITK; its exceptions become one line about `path`.
+template <typename Call>
+void guarded(const fs::path& path, const Call& call) {
+  const QuietLibraries quiet;
+  try {
+    call();
+  } catch (const itk::ExceptionObject& error) {
+    bad_input("{}: found unreadable or truncated image data ({}), expected a complete image", path.string(),
+              first_line(error.GetDescription()));
+  }
+}
+
+/// The reader for a file's extension; BadInput for any other.
+itk::ImageIOBase::Pointer reader_of(const fs::path& path);
+
+/// The header of one file: grey, of a pixel type that is kept as it is.
+void read_header(itk::ImageIOBase& io, const fs::path& path);
+
+/// All voxels of a file, its header having been read.
+void read_pixels(itk::ImageIOBase& io, const fs::path& path, char* target);
+
+/// No pixels yet, of that type. BadInput, or BadUsage for the option's word, for any other.
+Volume::Pixels pixels_of(itk::IOComponentEnum type, const fs::path& path);
+Volume::Pixels pixels_of(const std::string& type);
+
+std::size_t bytes_per_voxel(const Volume& volume);
+char* bytes(Volume& volume);
+
+/// Makes room for the pixels. A header may claim any size; what compression cannot have shrunk to
+/// `data_bytes` is not there.
+void allocate(Volume& volume, const fs::path& path, std::uintmax_t data_bytes);
+
+/// Voxel size and origin from a header (null: none that is meant) and options.
+void place(Volume& volume, itk::ImageIOBase* io, const fs::path& path, const ReadOptions& options);
+
+}  // namespace pendular
