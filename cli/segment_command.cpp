@@ -100,6 +100,8 @@ nlohmann::ordered_json summary(const Volume& volume, const Segmentation& result,
 void run(const Options& options) {
   apply(options.common);
   const ReadOptions how = reading(options);
+  if (options.calibrate_bridges && options.bridges.empty())
+    throw BadUsage("--calibrate-bridges: found no --bridges, expected bridges to calibrate");
   for (const fs::path& path : {options.common.out, options.bridges, options.labels}) require_writable(path);
   const Provenance origin = provenance(options.common, {options.volume});
   const Volume volume = read_volume(options.volume, how);
@@ -137,7 +139,8 @@ void add_segment(CLI::App& app) {
       "MetaImage or NRRD count as um (an NRRD may name another unit); TIFF and PNG need --voxel-um.");
   command
       ->add_option("volume", options->volume,
-                   "MetaImage, NRRD, multi-page TIFF, folder of TIFF, PNG or DICOM slices, GE phoenix .pcr or .vol, or raw data")
+                   "MetaImage, NRRD, multi-page TIFF, folder of TIFF, PNG or DICOM slices, GE phoenix .pcr "
+                   "or .vol, or raw data")
       ->required();
   add_common(*command, options->common, "Beads (beads.csv); a summary goes beside it as .json");
   command->add_option("--voxel-um", options->voxel_um, "Edge of a voxel, um; overrides the header's")

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kNear = 3.0, kFar = 6.0;  // standard errors between which pairs are taken to be apart
 constexpr int kRounds = 4, kSweeps = 400;
-constexpr double kClosed = 1e-3;       // of a standard error
-constexpr double kLeastOnPlane = 5.0;  // beads
+constexpr double kClosed = 1e-3;          // of a standard error
+constexpr std::size_t kLeastOnPlane = 5;  // beads
 
 /// Share of pairs truly apart that are measured to overlap: ∫ Φ(−u) du from zero.
 const double kSeenOverlapping = 1.0 / std::sqrt(2.0 * M_PI);
@@ -79,7 +79,7 @@ End flat_end(const std::vector<Bead>& beads, double way) {
   std::vector<double> heights;
   for (const auto& bead : beads) heights.push_back(end.of(bead));
   std::sort(heights.begin(), heights.end());
-  end.height = heights[std::min<std::size_t>(heights.size() - 1, static_cast<std::size_t>(kLeastOnPlane))];
+  end.height = heights[std::min(heights.size() - 1, kLeastOnPlane)];
   for (int round = 0; round < 10 * kRounds; ++round) {
     const TouchLikelihood likelihood = likelihood_at(end, beads);
     end.touching.clear();
@@ -89,7 +89,7 @@ End flat_end(const std::vector<Bead>& beads, double way) {
       if (!(sigma > 0.0) || off > kNear * sigma || !likelihood.touches(std::fabs(off), sigma)) continue;
       end.touching.push_back(k), sum += off;
     }
-    if (static_cast<double>(end.touching.size()) < kLeastOnPlane) return {way, -HUGE_VAL, {}};
+    if (end.touching.size() < kLeastOnPlane) return {way, 0.0, {}};
     end.height += sum / static_cast<double>(end.touching.size());
   }
   return end;

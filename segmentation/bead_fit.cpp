@@ -7,7 +7,6 @@
 #include "base/interrupt.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "packing/neighbours.h"
 
 namespace pendular {
 namespace {
@@ -28,28 +27,12 @@ double median_radius(const std::vector<BallFit>& fits) {
   return median(radii);
 }
 
-std::vector<GreyBall> balls_of(const std::vector<BallFit>& fits) {
-  std::vector<GreyBall> balls;
-  for (const BallFit& fit : fits) balls.push_back(fit.ball);
-  return balls;
-}
-
-std::vector<IndexPair> pairs_of(const std::vector<GreyBall>& balls, double max_gap) {
-  std::vector<Vec3> centres;
-  std::vector<double> diameters;
-  for (const GreyBall& ball : balls) {
-    centres.push_back(ball.centre);
-    diameters.push_back(2.0 * ball.radius);
-  }
-  return pairs_within(centres, diameters, max_gap);
-}
-
 /// One round: every ball fitted with the others where they were before.
 std::vector<BallFit> fit_round(const Volume& volume, const std::vector<GreyBall>& balls,
                                const std::optional<Container>& container, const FitSetting& setting,
                                const std::string& name) {
   std::vector<std::vector<int>> neighbours(balls.size());
-  for (const auto& [i, j] : pairs_of(balls, std::max(setting.cone_gap, 2.0 * setting.half_width))) {
+  for (const auto& [i, j] : near_balls(balls, std::max(setting.cone_gap, 2.0 * setting.half_width))) {
     neighbours[static_cast<std::size_t>(i)].push_back(j);
     neighbours[static_cast<std::size_t>(j)].push_back(i);
   }
@@ -89,7 +72,7 @@ void reject(std::vector<BallFit>& fits, const Volume& volume, const BeadSearch& 
            (search.container && outside(*search.container, fit.ball.centre));
   });
   std::vector<bool> dropped(fits.size(), false);
-  for (const auto& [a, b] : pairs_of(balls_of(fits), 0.0)) {
+  for (const auto& [a, b] : near_balls(balls_of(fits), 0.0)) {
     const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
     const double separation = (fits[i].ball.centre - fits[j].ball.centre).norm();
     if (dropped[i] || dropped[j] ||
@@ -139,6 +122,22 @@ std::vector<Seed> seeds_at(const std::vector<BallFit>& fits) {
 }
 
 }  // namespace
+
+std::vector<GreyBall> balls_of(const std::vector<BallFit>& fits) {
+  std::vector<GreyBall> balls;
+  for (const BallFit& fit : fits) balls.push_back(fit.ball);
+  return balls;
+}
+
+std::vector<IndexPair> near_balls(const std::vector<GreyBall>& balls, double max_gap) {
+  std::vector<Vec3> centres;
+  std::vector<double> diameters;
+  for (const GreyBall& ball : balls) {
+    centres.push_back(ball.centre);
+    diameters.push_back(2.0 * ball.radius);
+  }
+  return pairs_within(centres, diameters, max_gap);
+}
 
 double ball_share(const Volume& volume, const BeadSearch& search, double cutoff) {
   constexpr std::size_t most = 150;

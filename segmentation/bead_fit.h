@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "packing/neighbours.h"
 #include "segmentation/ball_fit.h"
 #include "segmentation/bead_search.h"
 #include "segmentation/noise.h"
@@ -17,6 +18,11 @@ struct FittedBeads {
   std::size_t rejected = 0;  ///< seeds that turned out to be no bead
   std::vector<Seed> grains;  ///< bodies of the mask that no ball covers: too irregular for the fit
 };
+
+std::vector<GreyBall> balls_of(const std::vector<BallFit>& fits);
+
+/// Pairs of balls whose surfaces are nearer than `max_gap` voxels, sorted.
+std::vector<IndexPair> near_balls(const std::vector<GreyBall>& balls, double max_gap);
 
 /// Fits balls to the seeds in rounds, since each fit leaves out what its neighbours hide: first coarsely,
 /// with the blur, then with the blur that most agree on. Seeds are rejected whose fit does not converge,

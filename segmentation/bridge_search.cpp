@@ -6,7 +6,6 @@
 #include "base/interrupt.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "packing/neighbours.h"
 #include "segmentation/neck_injection.h"
 
 namespace pendular {
@@ -14,28 +13,15 @@ namespace {
 
 constexpr double kReach = 1.0;  // of the typical radius, within which other balls may hide a crevice
 constexpr std::size_t kMostForPopulation = 4000;
-constexpr double kControlFrom = 0.25, kControlTo = 0.45;  // gaps over the radius: of pairs without a bridge
+constexpr double kControlFrom = 0.25, kControlWidth = 0.2;  // gaps over the radius: of pairs without a bridge
 constexpr std::size_t kMostControls = 2000;
 constexpr std::size_t kLeastHosts = 24, kMostHosts = 800;
 constexpr double kLeastNoise = 1e-8;  // squared grey values; a picture may have no noise at all
-
-std::vector<GreyBall> balls_of(const FittedBeads& fitted) {
-  std::vector<GreyBall> balls;
-  for (const auto& fit : fitted.fits) balls.push_back(fit.ball);
-  return balls;
-}
 
 BallPair ball_pair(const std::vector<GreyBall>& balls, int i, int j) {
   const GreyBall &a = balls[i], &b = balls[j];
   return {i, j, (a.centre - b.centre).norm() - a.radius - b.radius,
           2.0 * a.radius * b.radius / (a.radius + b.radius)};
-}
-
-std::vector<IndexPair> near_pairs(const std::vector<GreyBall>& balls, double max_gap) {
-  std::vector<Vec3> centres;
-  std::vector<double> diameters;
-  for (const auto& ball : balls) centres.push_back(ball.centre), diameters.push_back(2.0 * ball.radius);
-  return pairs_within(centres, diameters, max_gap);
 }
 
 double typical_radius(const std::vector<GreyBall>& balls) {
@@ -44,22 +30,31 @@ double typical_radius(const std::vector<GreyBall>& balls) {
   return sum / static_cast<double>(balls.size());
 }
 
-/// Pairs too far apart for a bridge, at most some thousand of them.
-std::vector<BallPair> controls(const std::vector<GreyBall>& balls, double radius) {
-  std::vector<BallPair> all;
-  for (const auto& [i, j] : near_pairs(balls, kControlTo * radius))
-    if (const BallPair pair = ball_pair(balls, i, j); pair.gap > kControlFrom * radius) all.push_back(pair);
-  std::vector<BallPair> some;
-  const std::size_t step = all.size() / kMostControls + 1;
+/// At most so many of all, evenly among them.
+template <typename Item>
+std::vector<Item> some_of(const std::vector<Item>& all, std::size_t most) {
+  const std::size_t step = all.size() / most + 1;
+  std::vector<Item> some;
   for (std::size_t k = 0; k < all.size(); k += step) some.push_back(all[k]);
   return some;
+}
+
+/// Pairs too far apart for a bridge, and farther than any that is looked at.
+std::vector<BallPair> controls(const std::vector<GreyBall>& balls, const std::vector<BallPair>& looked_at) {
+  const double radius = typical_radius(balls);
+  double from = kControlFrom * radius;
+  for (const auto& pair : looked_at) from = std::max(from, pair.gap);
+  std::vector<BallPair> all;
+  for (const auto& [i, j] : near_balls(balls, from + kControlWidth * radius))
+    if (const BallPair pair = ball_pair(balls, i, j); pair.gap > from) all.push_back(pair);
+  return some_of(all, kMostControls);
 }
 
 /// The balls that may hide each pair's crevice.
 std::vector<std::vector<int>> near_of(const std::vector<GreyBall>& balls,
                                       const std::vector<BallPair>& pairs) {
   std::vector<std::vector<int>> near(balls.size()), of_pairs;
-  for (const auto& [i, j] : near_pairs(balls, kReach * typical_radius(balls)))
+  for (const auto& [i, j] : near_balls(balls, kReach * typical_radius(balls)))
     near[static_cast<std::size_t>(i)].push_back(j), near[static_cast<std::size_t>(j)].push_back(i);
   for (const auto& pair : pairs) {
     std::vector<int> others = near[static_cast<std::size_t>(pair.i)];
@@ -123,13 +118,47 @@ ImageKnowledge knowledge_of(const FittedBeads& fitted) {
 
 /// At most some hundred of the pairs that have no bridge, evenly among them.
 std::vector<BallPair> hosts_of(const std::vector<Bridge>& pairs, const std::vector<BallPair>& looked_at) {
-  std::vector<BallPair> all, some;
+  std::vector<BallPair> all;
   for (std::size_t k = 0; k < pairs.size(); ++k)
     if (pairs[k].state == BridgeState::none) all.push_back(looked_at[k]);
-  if (all.size() < kLeastHosts) return {};
-  const std::size_t step = all.size() / kMostHosts + 1;
-  for (std::size_t k = 0; k < all.size(); k += step) some.push_back(all[k]);
-  return some;
+  return all.size() < kLeastHosts ? std::vector<BallPair>() : some_of(all, kMostHosts);
+}
+
+using Evidence = std::vector<std::optional<NeckEvidence>>;
+
+std::optional<NeckPopulation> population_of(const Evidence& evidence,
+                                            const std::vector<BallPair>& looked_at) {
+  std::vector<NeckEvidence> seen;
+  std::vector<double> radii;
+  const std::size_t step = evidence.size() / kMostForPopulation + 1;
+  for (std::size_t k = 0; k < evidence.size(); k += step)
+    if (evidence[k]) seen.push_back(*evidence[k]), radii.push_back(looked_at[k].radius);
+  return neck_population(seen, radii);
+}
+
+/// Probability, neck and state of every pair; without a population, or where nothing is seen, undetermined.
+void judge(const Evidence& evidence, const std::vector<BallPair>& looked_at,
+           const std::optional<NeckPopulation>& population, double spacing, double false_discoveries,
+           std::vector<Bridge>& pairs) {
+  std::vector<std::size_t> judged;
+  std::vector<double> probabilities;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    Bridge& pair = pairs[k];
+    pair.state = BridgeState::undetermined;
+    pair.probability = population ? population->share : 0.5;
+    if (!evidence[k] || !population) continue;
+    const NeckVerdict verdict = neck_verdict(*evidence[k], looked_at[k].radius, *population);
+    pair.probability = verdict.probability;
+    pair.diameter = 2.0 * spacing * verdict.radius;
+    pair.sigma_diameter = 2.0 * spacing * verdict.sigma_radius;
+    judged.push_back(k), probabilities.push_back(verdict.probability);
+  }
+  const auto states = neck_states(probabilities, false_discoveries);
+  for (std::size_t k = 0; k < judged.size(); ++k) {
+    Bridge& pair = pairs[judged[k]];
+    pair.state = states[k];
+    if (pair.state == BridgeState::none) pair.diameter = pair.sigma_diameter = 0.0;
+  }
 }
 
 std::vector<InjectedNecks> in_metres(const std::vector<NeckRecovery>& points, double spacing) {
@@ -140,67 +169,58 @@ std::vector<InjectedNecks> in_metres(const std::vector<NeckRecovery>& points, do
   return all;
 }
 
+std::vector<InjectedNecks> injected_into(const Volume& volume, const std::vector<GreyBall>& balls,
+                                         const std::vector<Bridge>& pairs,
+                                         const std::vector<BallPair>& looked_at,
+                                         const std::optional<Container>& container,
+                                         const ImageKnowledge& knowledge, const NeckPopulation& population) {
+  double threshold = 1.0;
+  for (const auto& pair : pairs)
+    if (pair.state == BridgeState::bridge) threshold = std::min(threshold, pair.probability);
+  const auto hosts = hosts_of(pairs, looked_at);
+  return in_metres(recover_injected(volume, balls, hosts, near_of(balls, hosts), container, knowledge,
+                                    population, threshold),
+                   volume.spacing);
+}
+
 }  // namespace
 
 BridgeSummary measure_bridges(const Volume& volume, const FittedBeads& fitted,
                               const std::optional<Container>& container, const BridgeOptions& options,
                               std::vector<Bridge>& pairs) {
-  BridgeSummary summary;
-  summary.pairs = pairs.size();
-  const auto balls = balls_of(fitted);
+  const auto balls = balls_of(fitted.fits);
   std::vector<BallPair> looked_at;
   for (const auto& pair : pairs) looked_at.push_back(ball_pair(balls, pair.i, pair.j));
   ImageKnowledge knowledge = knowledge_of(fitted);
-  const double white = std::max(fitted.noise.sd * fitted.noise.sd, kLeastNoise);
-  summary.noise_scatter = scatter_of(evidence_of(volume, balls, controls(balls, typical_radius(balls)),
-                                                 container, knowledge, "gaps without bridges"));
+  BridgeSummary summary;
+  summary.noise_scatter = scatter_of(
+      evidence_of(volume, balls, controls(balls, looked_at), container, knowledge, "gaps without bridges"));
   // Independent noise is the least there can be.
   knowledge.noise_variance =
-      std::max(knowledge.noise_variance * summary.noise_scatter * summary.noise_scatter, white);
-  const auto evidence = evidence_of(volume, balls, looked_at, container, knowledge, "bridges");
+      std::max({knowledge.noise_variance * summary.noise_scatter * summary.noise_scatter,
+                fitted.noise.sd * fitted.noise.sd, kLeastNoise});
+  const Evidence evidence = evidence_of(volume, balls, looked_at, container, knowledge, "bridges");
+  const auto population = population_of(evidence, looked_at);
+  judge(evidence, looked_at, population, volume.spacing, options.false_discoveries, pairs);
 
-  std::vector<NeckEvidence> seen;
-  std::vector<double> radii;
-  const std::size_t step = pairs.size() / kMostForPopulation + 1;
-  for (std::size_t k = 0; k < pairs.size(); k += step)
-    if (evidence[k]) seen.push_back(*evidence[k]), radii.push_back(looked_at[k].radius);
-  const auto population = neck_population(seen, radii);
-  std::vector<std::size_t> judged;
-  std::vector<double> probabilities;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    Bridge& pair = pairs[k];
-    pair.state = BridgeState::undetermined;
-    pair.probability = population ? population->share : 0.5;
-    if (!evidence[k]) ++summary.unseen;
-    if (!evidence[k] || !population) continue;
-    const NeckVerdict verdict = neck_verdict(*evidence[k], looked_at[k].radius, *population);
-    pair.probability = verdict.probability;
-    pair.diameter = 2.0 * volume.spacing * verdict.radius;
-    pair.sigma_diameter = 2.0 * volume.spacing * verdict.sigma_radius;
-    judged.push_back(k), probabilities.push_back(verdict.probability);
-  }
-  const auto states = neck_states(probabilities, options.false_discoveries);
-  for (std::size_t k = 0; k < judged.size(); ++k) pairs[judged[k]].state = states[k];
-  for (auto& pair : pairs) {
-    summary.bridges += pair.state == BridgeState::bridge;
-    summary.none += pair.state == BridgeState::none;
-    summary.undetermined += pair.state == BridgeState::undetermined;
-    if (pair.state == BridgeState::none) pair.diameter = pair.sigma_diameter = 0.0;
-  }
+  const auto count = [&](BridgeState state) {
+    return static_cast<std::size_t>(std::count_if(
+        pairs.begin(), pairs.end(), [state](const Bridge& pair) { return pair.state == state; }));
+  };
+  summary.pairs = pairs.size();
+  summary.bridges = count(BridgeState::bridge);
+  summary.none = count(BridgeState::none);
+  summary.undetermined = count(BridgeState::undetermined);
+  summary.unseen = static_cast<std::size_t>(
+      std::count_if(evidence.begin(), evidence.end(), [](const auto& one) { return !one.has_value(); }));
   if (!population) return summary;
   summary.polymer_seen = true;
   summary.contrast = population->contrast, summary.sigma_contrast = population->sigma_contrast;
   summary.share = population->share;
   summary.diameter = 2.0 * volume.spacing * population->mean;
   summary.diameter_sd = 2.0 * volume.spacing * population->sd;
-  if (!options.calibrate) return summary;
-  double threshold = 1.0;
-  for (const auto& pair : pairs)
-    if (pair.state == BridgeState::bridge) threshold = std::min(threshold, pair.probability);
-  const auto hosts = hosts_of(pairs, looked_at);
-  summary.injected = in_metres(recover_injected(volume, balls, hosts, near_of(balls, hosts), container,
-                                                knowledge, *population, threshold),
-                               volume.spacing);
+  if (options.calibrate)
+    summary.injected = injected_into(volume, balls, pairs, looked_at, container, knowledge, *population);
   return summary;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "measured_beads.h"
@@ -57,6 +58,25 @@ TEST(Touching, IsNearerToTheTruthThanTheMeasurement) {
     return square;
   };
   EXPECT_LT(error(closed), 0.8 * error(seen));
+}
+
+TEST(Touching, FlatEndsBecomeFlatAgain) {
+  const auto ends = [](const std::vector<Bead>& beads, double way) {
+    std::vector<double> heights;
+    for (const auto& bead : beads) heights.push_back(way * bead.centre.z() - 0.5 * bead.diameter);
+    std::sort(heights.begin(), heights.end());
+    return heights;
+  };
+  const auto seen = measured_beads(), closed = closed_contacts(seen);
+  for (const double way : {1.0, -1.0}) {
+    const auto truly = ends(touching_beads(), way);
+    const auto on_it = static_cast<std::size_t>(
+        std::count_if(truly.begin(), truly.end(), [&](double h) { return h < truly.front() + kTouch; }));
+    ASSERT_GT(on_it, 15u);
+    EXPECT_GT(ends(seen, way)[on_it - 1] - ends(seen, way).front(), 2.0 * kSigma);
+    EXPECT_LT(ends(closed, way)[on_it - 3] - ends(closed, way).front(), 0.1 * kSigma);
+    EXPECT_NEAR(ends(closed, way).front(), truly.front(), 0.4 * kSigma);
+  }
 }
 
 TEST(Touching, LeavesAloneWhatIsApartOrExact) {
