@@ -10,14 +10,15 @@
 #include <itkImageFileWriter.h>
 #include <itkMetaDataObject.h>
 
-#include "base/error.h"
 #include "mutation.h"
+#include "read_error.h"
 #include "scratch.h"
 #include "segmentation/volume.h"
 
 namespace pendular {
 namespace {
 
+using test::error_of;
 using test::ScratchFolder;
 
 constexpr std::size_t kWide = 6, kDeep = 5, kSlices = 4;
@@ -54,15 +55,6 @@ void write_slice(const fs::path& path, std::size_t k, double height, double pixe
   writer->SetInput(image);
   writer->SetFileName(path.string());
   writer->Update();
-}
-
-std::string error_of(const fs::path& path, const ReadOptions& options = {}) {
-  try {
-    read_volume(path, options);
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
 }
 
 template <typename T>

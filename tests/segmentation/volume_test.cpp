@@ -5,12 +5,13 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "base/error.h"
+#include "read_error.h"
 #include "scratch.h"
 
 namespace pendular {
 namespace {
 
+using test::error_of;
 using test::ScratchFolder;
 
 Volume ramp() {
@@ -19,15 +20,6 @@ Volume ramp() {
   for (std::size_t n = 0; n < pixels.size(); ++n) pixels[n] = static_cast<std::uint16_t>(1000 + n);
   volume.pixels = pixels;
   return volume;
-}
-
-std::string error_of(const fs::path& path, const ReadOptions& options = {}) {
-  try {
-    read_volume(path, options);
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
 }
 
 void write_bytes(const fs::path& path, const std::string& bytes) {
