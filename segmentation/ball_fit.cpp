@@ -25,7 +25,9 @@ class Hidden {
  public:
   Hidden(std::span<const GreyBall> balls, std::size_t own, std::span<const int> neighbours,
          const std::optional<Container>& container, const FitSetting& setting)
-      : centre_(balls[own].centre), container_(container), margin_(setting.half_width) {
+      : centre_(balls[own].centre),
+        container_(container ? &*container : nullptr),
+        margin_(setting.half_width) {
     for (const int other : neighbours) {
       const GreyBall& ball = balls[other];
       const Vec3 to = ball.centre - centre_;
@@ -35,6 +37,7 @@ class Hidden {
       bodies_.push_back(
           {to, reach * reach, to / distance, gap < setting.cone_gap ? std::cos(setting.cone) : 2.0});
     }
+    if (container && free_of(*container, balls[own].radius + 2.0 * margin_)) container_ = nullptr;
   }
 
   /// `p` relative to the ball's centre, at distance r from it.
@@ -51,6 +54,14 @@ class Hidden {
   }
 
  private:
+  /// Whether the container is further than `reach` from the centre.
+  bool free_of(const Container& container, double reach) const {
+    return std::hypot(centre_.x() - container.axis_x, centre_.y() - container.axis_y) + reach <
+               container.radius &&
+           !(container.bottom && centre_.z() < *container.bottom + reach) &&
+           !(container.top && centre_.z() > *container.top - reach);
+  }
+
   struct Body {
     Vec3 to;
     double reach_squared;
@@ -59,7 +70,7 @@ class Hidden {
   };
   Vec3 centre_;
   std::vector<Body> bodies_;
-  const std::optional<Container>& container_;
+  const Container* container_;  ///< none where it is out of reach
   double margin_;
 };
 
@@ -77,10 +88,16 @@ Shell shell_of(std::span<const T> pixels, const Volume& volume, const GreyBall& 
   std::size_t all = 0, free = 0;
   const auto inside = [&](long k, int axis) { return k >= 0 && k < static_cast<long>(volume.size[axis]); };
   for (long k = low[2]; k <= high[2]; ++k)
-    for (long j = low[1]; j <= high[1]; ++j)
+    for (long j = low[1]; j <= high[1]; ++j) {
+      const double y = static_cast<double>(j) - ball.centre.y(), z = static_cast<double>(k) - ball.centre.z();
+      const double chord = inner * inner - y * y - z * z;  // of the hollow, squared
+      const double hollow = chord > 1.0 ? std::sqrt(chord) - 0.5 : 0.0;
       for (long i = low[0]; i <= high[0]; ++i) {
-        const Vec3 p =
-            Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)) - ball.centre;
+        const Vec3 p(static_cast<double>(i) - ball.centre.x(), y, z);
+        if (std::fabs(p.x()) < hollow) {
+          i = static_cast<long>(std::floor(ball.centre.x() + hollow));
+          continue;
+        }
         const double square = p.squaredNorm();
         if (square < inner * inner || square > outer * outer || all++ % setting.stride != 0) continue;
         if (!inside(i, 0) || !inside(j, 1) || !inside(k, 2) || hidden(p, std::sqrt(square))) continue;
@@ -91,6 +108,7 @@ Shell shell_of(std::span<const T> pixels, const Volume& volume, const GreyBall& 
         shell.samples.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()),
                                  static_cast<float>(p.z()), static_cast<float>(pixels[n])});
       }
+    }
   shell.free_share = all ? static_cast<double>(free * setting.stride) / static_cast<double>(all) : 0.0;
   return shell;
 }

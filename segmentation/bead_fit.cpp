@@ -95,6 +95,12 @@ std::vector<GreyBall> balls_at(const std::vector<Seed>& seeds, const BeadSearch&
   return balls;
 }
 
+/// Of a shell's voxels every so many: some thousands are enough for a fit that another one follows.
+std::size_t stride_for(double radius, double half_width) {
+  constexpr double enough = 6000.0;
+  return static_cast<std::size_t>(std::max(1.0, 8.0 * M_PI * radius * radius * half_width / enough));
+}
+
 /// First fits to seeds, which may be off by some voxels: a wide shell, some of its voxels; then with the blur
 /// free.
 std::vector<BallFit> coarse_fits(const Volume& volume, const std::vector<GreyBall>& balls,
@@ -105,10 +111,11 @@ std::vector<BallFit> coarse_fits(const Volume& volume, const std::vector<GreyBal
   FitSetting setting;
   setting.half_width = std::max(3.0, 0.3 * radius);
   setting.cone_gap = 2.0 * cutoff * radius + 2.0;
-  setting.stride = radius > 15.0 ? 4 : radius > 10.0 ? 2 : 1;
+  setting.stride = stride_for(radius, setting.half_width);
   setting.tolerance = 0.05;
   const auto first = fit_round(volume, balls, search.container, setting, "first fits");
   setting.half_width = std::max(3.0, 0.2 * radius);
+  setting.stride = stride_for(radius, setting.half_width);
   setting.fit_blur = true;
   auto fits = fit_round(volume, balls_of(first), search.container, setting, "first fits, with blur");
   reject(fits, volume, search);
@@ -171,14 +178,18 @@ FittedBeads fit_beads(const Volume& volume, const BeadSearch& search, double cut
   result.blur = median(blurs);
   FitSetting setting;
   setting.blur = result.blur;
-  setting.tolerance = 1e-2;
   setting.half_width = std::max(2.0, 3.0 * result.blur);
   setting.cone_gap = 2.0 * cutoff * median_radius(fits) + 0.5;
-  for (const char* name : {"second fits", "last fits"}) {
-    setting.tolerance *= 0.1;
+  const auto fit_again = [&](const char* name) {
     fits = fit_round(volume, balls_of(fits), search.container, setting, name);
     reject(fits, volume, search);
-  }
+  };
+  setting.tolerance = 1e-3;
+  setting.stride = stride_for(median_radius(fits), setting.half_width);
+  fit_again("second fits");
+  setting.tolerance = 1e-4;
+  setting.stride = 1;
+  fit_again("last fits");
   result.noise = measure_noise(volume, balls_of(fits), setting.half_width);
   result.grains = search_missed(search.mask, seeds_at(fits), search.least_radius);
   result.fits = std::move(fits);

@@ -9,6 +9,8 @@
 namespace pendular {
 namespace {
 
+constexpr double least_radius_in_nodes = 4.0;  // on a coarser grid than this, beads that touch run together
+
 Grid<std::uint8_t> mask_of(const Grid<float>& grey, double threshold, bool bright) {
   Grid<std::uint8_t> mask{grey.size, grey.factor, std::vector<std::uint8_t>(grey.values.size())};
   for_blocks(grey.values.size(), 1 << 20, [&](std::size_t first, std::size_t last) {
@@ -66,33 +68,48 @@ double inscribed_share(const BeadSearch& search) {
   return nodes > 0.0 ? balls / (nodes * std::pow(factor, 3)) : 0.0;
 }
 
-}  // namespace
+/// The smallest power of two, from two on, that leaves at most so many nodes.
+std::size_t first_factor(const Volume& volume, std::size_t most_nodes) {
+  std::size_t factor = 2;
+  while (volume.voxels() / (factor * factor * factor) > most_nodes) factor *= 2;
+  return factor;
+}
 
-BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<double> least_radius,
-                        const BallShare& balls_among) {
-  constexpr double least_share = 0.4, least_nodes_across = 8.0, smoothing = 0.7;
-  BeadSearch search;
-  search.levels = grey_levels(histogram_of(volume));
-  stop_if_interrupted();
-  const Grid<float> smooth = smoothed(binned(volume, 2), smoothing);
-  stop_if_interrupted();
-  search.container = find_container(smooth);
-  if (search.container) search.levels = levels_within(volume, *search.container);
+void choose_tone(BeadSearch& search, const Grid<float>& smooth, BeadTone tone, const BallShare& balls_among) {
   search.bright = tone != BeadTone::dark;
   find_bodies(search, smooth);
-  if (tone == BeadTone::automatic) {
-    BeadSearch other = search;
-    other.bright = false;
-    find_bodies(other, smooth);
-    if (balls_among(other) * inscribed_share(other) > balls_among(search) * inscribed_share(search))
-      search = std::move(other);
-  }
-  double typical = typical_radius(search.seeds);
-  if (typical < least_nodes_across) {
-    find_bodies(search, smoothed(binned(volume, 1), smoothing));
+  if (tone != BeadTone::automatic) return;
+  BeadSearch other = search;
+  other.bright = false;
+  find_bodies(other, smooth);
+  if (balls_among(other) * inscribed_share(other) > balls_among(search) * inscribed_share(search))
+    search = std::move(other);
+}
+
+}  // namespace
+
+BeadSearch search_beads(const Volume& volume, const SearchSetting& setting, const BallShare& balls_among) {
+  constexpr double least_share = 0.4, smoothing = 0.7;
+  BeadSearch search;
+  search.levels = grey_levels(histogram_of(volume));
+  release(volume);
+  stop_if_interrupted();
+  double typical = 0.0;
+  for (std::size_t factor = first_factor(volume, setting.most_nodes);; factor /= 2) {
+    const Grid<float> smooth = reduced(volume, factor, smoothing);
+    release(volume);
+    stop_if_interrupted();
+    if (factor > 1) {
+      search.container = find_container(smooth);
+      if (search.container) search.levels = levels_within(volume, *search.container);
+      choose_tone(search, smooth, setting.tone, balls_among);
+    } else {
+      find_bodies(search, smooth);
+    }
     typical = typical_radius(search.seeds);
+    if (factor == 1 || typical >= least_radius_in_nodes * static_cast<double>(factor)) break;
   }
-  search.least_radius = least_radius.value_or(least_share * typical);
+  search.least_radius = setting.least_radius.value_or(least_share * typical);
   std::erase_if(search.seeds, [&](const Seed& seed) { return seed.radius < search.least_radius; });
   return search;
 }

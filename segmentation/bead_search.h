@@ -26,13 +26,18 @@ struct BeadSearch {
 /// Share of a search's seeds, or of a sample of them, that have a ball's edge.
 using BallShare = std::function<double(const BeadSearch&)>;
 
-/// Looks for beads on the volume reduced twofold or, where they are smaller than sixteen voxels across, on
-/// all of it; lightly smoothed against noise. `least_radius` (voxels): leave out what is smaller; without it,
-/// what is below 0.4 of the typical radius. The tone, where it is automatic, is that of the class for which
-/// this product is greater: the share `balls_among` its bodies, and the share of its volume that their
-/// inscribed balls fill.
-BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<double> least_radius,
-                        const BallShare& balls_among);
+/// How beads are looked for.
+struct SearchSetting {
+  BeadTone tone = BeadTone::automatic;
+  std::optional<double> least_radius;             ///< voxels; none: 0.4 of the typical one
+  std::size_t most_nodes = std::size_t{1} << 28;  ///< of the grid to begin with
+};
+
+/// Looks for beads on the volume reduced by a power of two, lightly smoothed against noise: as coarse as
+/// `most_nodes` asks, twofold at least, and finer where the typical bead is less than eight nodes across. The
+/// tone, where it is automatic, is that of the class for which this product is greater: the share
+/// `balls_among` its bodies, and the share of its volume that their inscribed balls fill.
+BeadSearch search_beads(const Volume& volume, const SearchSetting& setting, const BallShare& balls_among);
 
 /// Seeds in what the balls leave of the mask, at least `least_radius` voxels in radius: beads that were
 /// missed.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -15,14 +16,21 @@ namespace {
 constexpr std::size_t most_bins = 65536;
 
 template <typename T>
-std::pair<T, T> extremes(std::span<const T> pixels) {
+std::pair<T, T> extremes(std::span<const Grey<T>> values) {
+  if constexpr (sizeof(T) <= sizeof(std::uint16_t))
+    return {std::numeric_limits<T>::min(), std::numeric_limits<T>::max()};
   std::mutex guard;
-  T least = pixels[0], greatest = pixels[0];
-  for_blocks(pixels.size(), 1 << 22, [&](std::size_t first, std::size_t last) {
-    const auto [low, high] = std::minmax_element(pixels.begin() + first, pixels.begin() + last);
+  T least = values[0], greatest = values[0];
+  for_blocks(values.size(), 1 << 22, [&](std::size_t first, std::size_t last) {
+    T low = values[first], high = low;
+    for (std::size_t k = first; k < last; ++k) {
+      const T value = values[k];
+      low = value < low ? value : low;
+      high = value > high ? value : high;
+    }
     const std::lock_guard lock(guard);
-    least = std::min(least, *low);
-    greatest = std::max(greatest, *high);
+    least = std::min(least, low);
+    greatest = std::max(greatest, high);
   });
   return {least, greatest};
 }
@@ -109,7 +117,7 @@ double mean(const Histogram& histogram, std::size_t first, std::size_t last) {
 }
 
 template <typename T>
-Histogram counted(std::span<const T> values) {
+Histogram counted(std::span<const Grey<T>> values) {
   const auto [least, greatest] = extremes(values);
   const double range = static_cast<double>(greatest) - static_cast<double>(least);
   const bool exact = std::is_integral_v<T> && range < static_cast<double>(most_bins);
@@ -135,7 +143,7 @@ Histogram counted(std::span<const T> values) {
 }  // namespace
 
 Histogram histogram_of(std::span<const float> values) {
-  return counted(values);
+  return counted(std::span(reinterpret_cast<const Grey<float>*>(values.data()), values.size()));
 }
 
 Histogram histogram_of(const Volume& volume) {

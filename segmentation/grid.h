@@ -28,14 +28,13 @@ struct Grid {
   }
 };
 
-/// Means over blocks of factor³ voxels; what is left over at the far ends is dropped.
-Grid<float> binned(const Volume& volume, std::size_t factor);
-
-/// Convolved with a Gaussian of standard deviation `sd` nodes (ITK's recursive one), edges continued.
-Grid<float> smoothed(const Grid<float>& grid, double sd);
+/// Means over blocks of factor³ voxels, convolved with a Gaussian of standard deviation `sd` nodes (ITK's
+/// recursive one), edges continued. What is left over at the far ends is dropped; a grid of less than four
+/// nodes along an axis is not convolved.
+Grid<float> reduced(const Volume& volume, std::size_t factor, double sd);
 
 /// For each node with a nonzero mask the distance, in nodes, to the surface of the mask; elsewhere not
-/// positive (ITK's signed Maurer map). What lies outside the grid counts as neither.
+/// positive (ITK's signed Maurer map, on one thread). What lies outside the grid counts as neither.
 Grid<float> distance_inside(const Grid<std::uint8_t>& mask);
 
 }  // namespace pendular

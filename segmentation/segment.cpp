@@ -121,11 +121,10 @@ Segmentation segment(const Volume& volume, const SegmentOptions& options) {
       bad_input("volume of {} x {} x {} voxels, expected at least 16 along each axis", volume.size[0],
                 volume.size[1], volume.size[2]);
   Segmentation result;
-  std::optional<double> least_radius;
-  if (options.least_diameter) least_radius = 0.5 * *options.least_diameter / volume.spacing;
-  const BeadSearch search = search_beads(volume, options.tone, least_radius, [&](const BeadSearch& tried) {
-    return ball_share(volume, tried, options.cutoff);
-  });
+  SearchSetting setting{options.tone, std::nullopt, options.most_nodes};
+  if (options.least_diameter) setting.least_radius = 0.5 * *options.least_diameter / volume.spacing;
+  const BeadSearch search = search_beads(
+      volume, setting, [&](const BeadSearch& tried) { return ball_share(volume, tried, options.cutoff); });
   FittedBeads fitted = fit_beads(volume, search, options.cutoff);
   if (fitted.fits.empty())
     bad_input(
@@ -142,6 +141,7 @@ Segmentation segment(const Volume& volume, const SegmentOptions& options) {
   if (options.bridges)
     result.measured = measure_bridges(volume, fitted, search.container, *options.bridges, result.bridges);
   result.porosity = porosity_of(volume, result.specimen, result.levels.threshold, result.bright_beads);
+  release(volume);
   result.blur = fitted.blur * volume.spacing;
   result.noise = fitted.noise.sd / (result.levels.bright - result.levels.dark);
   result.noise_correlation = fitted.noise.correlation.size() > 1 ? fitted.noise.correlation[1] : 0.0;

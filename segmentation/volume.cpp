@@ -30,6 +30,10 @@ std::string pixel_type(const Volume& volume) {
   return names[volume.pixels.index()];
 }
 
+void release(const Volume& volume) {
+  if (volume.file) volume.file->release();
+}
+
 void write_volume(const fs::path& path, const Volume& volume, const Provenance& provenance) {
   if (path.extension() != ".mha")
     throw BadUsage(fmt::format("{}: found a name that does not end in .mha, expected .mha", path.string()));
