@@ -160,7 +160,7 @@ void add_segment(CLI::App& app) {
       ->check(CLI::Range(0.0, 0.5));
   command->add_flag("--calibrate-bridges", options->calibrate_bridges,
                     "Put necks of several sizes into the volume, and say which are found (in the summary)");
-  command->add_option("--labels", options->labels, "Write each voxel's bead number (.mha)");
+  command->add_option("--labels", options->labels, "Write each voxel's bead number (.mha or .tif)");
   command->add_option("--qa", options->qa, "Write pictures to judge the result by into this folder");
   command
       ->add_option("--cutoff", options->segment.cutoff,

@@ -90,9 +90,12 @@ Shell shell_of(std::span<const T> pixels, const Volume& volume, const GreyBall& 
   for (long k = low[2]; k <= high[2]; ++k)
     for (long j = low[1]; j <= high[1]; ++j) {
       const double y = static_cast<double>(j) - ball.centre.y(), z = static_cast<double>(k) - ball.centre.z();
-      const double chord = inner * inner - y * y - z * z;  // of the hollow, squared
-      const double hollow = chord > 1.0 ? std::sqrt(chord) - 0.5 : 0.0;
-      for (long i = low[0]; i <= high[0]; ++i) {
+      const double within = outer * outer - y * y - z * z, chord = inner * inner - y * y - z * z;
+      if (within < 0.0) continue;
+      const double half = std::sqrt(within) + 0.5;                       // of the row, a little wide
+      const double hollow = chord > 1.0 ? std::sqrt(chord) - 0.5 : 0.0;  // a little narrow
+      const long end = std::min(high[0], static_cast<long>(std::floor(ball.centre.x() + half)));
+      for (long i = std::max(low[0], static_cast<long>(std::ceil(ball.centre.x() - half))); i <= end; ++i) {
         const Vec3 p(static_cast<double>(i) - ball.centre.x(), y, z);
         if (std::fabs(p.x()) < hollow) {
           i = static_cast<long>(std::floor(ball.centre.x() + hollow));
@@ -124,34 +127,34 @@ struct Equations {
   double squares = 0.0;
 };
 
+/// A voxel's slopes with respect to the parameters, and what is left of its grey value.
+Eigen::Matrix<double, 8, 1> slopes_and_rest(const ShellVoxel& voxel, const Parameters& q) {
+  const double dx = voxel.x - q[0], dy = voxel.y - q[1], dz = voxel.z - q[2];
+  const double r = std::sqrt(dx * dx + dy * dy + dz * dz);
+  const BallProfile profile = ball_profile(r, q[3], q[6]);
+  const double pull = -q[4] * profile.by_distance / r;
+  Eigen::Matrix<double, 8, 1> row;
+  row << pull * dx, pull * dy, pull * dz, q[4] * profile.by_radius, profile.value, 1.0,
+      q[4] * profile.by_blur, voxel.grey - q[5] - q[4] * profile.value;
+  return row;
+}
+
 Equations equations(const std::vector<ShellVoxel>& voxels, const Parameters& q, bool fit_blur) {
-  double matrix[7][7] = {}, right[7] = {}, squares = 0.0;
-  for (const ShellVoxel& voxel : voxels) {
-    const double dx = voxel.x - q[0], dy = voxel.y - q[1], dz = voxel.z - q[2];
-    const double r = std::sqrt(dx * dx + dy * dy + dz * dz);
-    const BallProfile profile = ball_profile(r, q[3], q[6]);
-    const double pull = -q[4] * profile.by_distance / r;
-    const double slope[7] = {pull * dx,
-                             pull * dy,
-                             pull * dz,
-                             q[4] * profile.by_radius,
-                             profile.value,
-                             1.0,
-                             q[4] * profile.by_blur};
-    const double residual = voxel.grey - q[5] - q[4] * profile.value;
-    for (int a = 0; a < 7; ++a) {
-      for (int b = 0; b < 7; ++b) matrix[a][b] += slope[a] * slope[b];
-      right[a] += slope[a] * residual;
-    }
-    squares += residual * residual;
+  constexpr std::size_t block = 128;  // a product of matrices is quicker than one of vectors for each voxel
+  Eigen::Matrix<double, 8, block> rows;
+  Eigen::Matrix<double, 8, 8> sums = Eigen::Matrix<double, 8, 8>::Zero();
+  for (std::size_t first = 0; first < voxels.size(); first += block) {
+    const std::size_t count = std::min(block, voxels.size() - first);
+    for (std::size_t k = 0; k < count; ++k)
+      rows.col(static_cast<Eigen::Index>(k)) = slopes_and_rest(voxels[first + k], q);
+    const auto filled = rows.leftCols(static_cast<Eigen::Index>(count));
+    sums.noalias() += filled * filled.transpose();
   }
-  Equations result{Normal::Zero(), Parameters::Zero(), squares};
-  const int n = fit_blur ? 7 : 6;
-  for (int a = 0; a < n; ++a) {
-    for (int b = 0; b < n; ++b) result.matrix(a, b) = matrix[a][b];
-    result.right[a] = right[a];
+  Equations result{sums.topLeftCorner<7, 7>(), sums.col(7).head<7>(), sums(7, 7)};
+  if (!fit_blur) {
+    result.matrix.row(6).setZero(), result.matrix.col(6).setZero();
+    result.matrix(6, 6) = 1.0, result.right[6] = 0.0;
   }
-  if (!fit_blur) result.matrix(6, 6) = 1.0;
   return result;
 }
 

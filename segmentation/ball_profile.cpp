@@ -40,14 +40,15 @@ class NormalTable {
 
 BallProfile ball_profile(double r, double R, double s) {
   static const NormalTable normal;
-  const double t = (R - r) / s;
+  const double per_s = 1.0 / s, per_r = 1.0 / r;
+  const double t = (R - r) * per_s;
   const auto [cumulative, density] = normal(t);
-  const double curvature = s / r;
+  const double curvature = s * per_r;
   BallProfile profile;
   profile.value = cumulative - curvature * density;
-  profile.by_radius = density / s * (1.0 + curvature * t);
-  profile.by_distance = -profile.by_radius + curvature / r * density;
-  profile.by_blur = -density * (t / s + (1.0 + t * t) / r);
+  profile.by_radius = density * per_s * (1.0 + curvature * t);
+  profile.by_distance = -profile.by_radius + curvature * per_r * density;
+  profile.by_blur = -density * (t * per_s + (1.0 + t * t) * per_r);
   return profile;
 }
 

@@ -20,7 +20,8 @@ Grid<std::uint8_t> mask_of(const Grid<float>& grey, double threshold, bool brigh
 }
 
 bool within(const Container& container, const Vec3& p) {
-  return std::hypot(p.x() - container.axis_x, p.y() - container.axis_y) < container.radius &&
+  const double x = p.x() - container.axis_x, y = p.y() - container.axis_y;
+  return x * x + y * y < container.radius * container.radius &&
          (!container.bottom || p.z() > *container.bottom) && (!container.top || p.z() < *container.top);
 }
 
@@ -75,15 +76,73 @@ std::size_t first_factor(const Volume& volume, std::size_t most_nodes) {
   return factor;
 }
 
-void choose_tone(BeadSearch& search, const Grid<float>& smooth, BeadTone tone, const BallShare& balls_among) {
-  search.bright = tone != BeadTone::dark;
-  find_bodies(search, smooth);
-  if (tone != BeadTone::automatic) return;
-  BeadSearch other = search;
-  other.bright = false;
-  find_bodies(other, smooth);
-  if (balls_among(other) * inscribed_share(other) > balls_among(search) * inscribed_share(search))
-    search = std::move(other);
+/// A box of a grid, and the voxel at which it begins.
+struct Part {
+  Grid<float> grey;
+  Vec3 first = Vec3::Zero();
+};
+
+/// Where boxes of `edge` nodes begin that cover an axis of `size` nodes and overlap by half.
+std::vector<std::size_t> box_starts(std::size_t size, std::size_t edge) {
+  std::vector<std::size_t> starts;
+  for (std::size_t n = 0; n + edge < size; n += edge / 2) starts.push_back(n);
+  starts.push_back(size - std::min(size, edge));
+  return starts;
+}
+
+/// Of a box's nodes, some thousands looked at.
+double variance_within(const Grid<float>& grey, const std::array<std::size_t, 3>& first, std::size_t edge) {
+  constexpr std::size_t step = 8;
+  double n = 0.0, sum = 0.0, squares = 0.0;
+  std::array<std::size_t, 3> last;
+  for (std::size_t axis = 0; axis < 3; ++axis) last[axis] = std::min(grey.size[axis], first[axis] + edge);
+  for (std::size_t k = first[2]; k < last[2]; k += step)
+    for (std::size_t j = first[1]; j < last[1]; j += step)
+      for (std::size_t i = first[0]; i < last[0]; i += step) {
+        const double value = grey.values[grey.index(i, j, k)];
+        n += 1.0, sum += value, squares += value * value;
+      }
+  return squares / n - sum / n * (sum / n);
+}
+
+/// The box of at most 256³ nodes in which grey values vary most: where the beads are.
+Part most_varied_part(const Grid<float>& grey) {
+  constexpr std::size_t edge = 256;
+  std::array<std::size_t, 3> best{};
+  double greatest = -1.0;
+  for (const std::size_t k : box_starts(grey.size[2], edge))
+    for (const std::size_t j : box_starts(grey.size[1], edge))
+      for (const std::size_t i : box_starts(grey.size[0], edge))
+        if (const double variance = variance_within(grey, {i, j, k}, edge); variance > greatest)
+          best = {i, j, k}, greatest = variance;
+  Part part{{{}, grey.factor, {}}, {}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    part.grey.size[axis] = std::min(edge, grey.size[axis]);
+    part.first[static_cast<Eigen::Index>(axis)] = static_cast<double>(best[axis] * grey.factor);
+  }
+  for (std::size_t k = best[2]; k < best[2] + part.grey.size[2]; ++k)
+    for (std::size_t j = best[1]; j < best[1] + part.grey.size[1]; ++j) {
+      const auto row = grey.values.begin() + static_cast<std::ptrdiff_t>(grey.index(best[0], j, k));
+      part.grey.values.insert(part.grey.values.end(), row,
+                              row + static_cast<std::ptrdiff_t>(part.grey.size[0]));
+    }
+  return part;
+}
+
+/// How much the bodies of a part look like balls: share of them and of their volume.
+double likeness(BeadSearch trial, const Part& part, bool bright, const BallShare& balls_among) {
+  const auto container = trial.container;
+  if (container) {
+    trial.container->axis_x -= part.first.x(), trial.container->axis_y -= part.first.y();
+    for (auto* end : {&trial.container->bottom, &trial.container->top})
+      if (*end) **end -= part.first.z();
+  }
+  trial.bright = bright;
+  find_bodies(trial, part.grey);
+  const double inscribed = inscribed_share(trial);
+  for (Seed& seed : trial.seeds) seed.centre += part.first;
+  trial.container = container;
+  return inscribed * balls_among(trial);
 }
 
 }  // namespace
@@ -102,10 +161,14 @@ BeadSearch search_beads(const Volume& volume, const SearchSetting& setting, cons
     if (factor > 1) {
       search.container = find_container(smooth);
       if (search.container) search.levels = levels_within(volume, *search.container);
-      choose_tone(search, smooth, setting.tone, balls_among);
-    } else {
-      find_bodies(search, smooth);
+      search.bright = setting.tone != BeadTone::dark;
+      if (setting.tone == BeadTone::automatic) {
+        const Part part = most_varied_part(smooth);
+        search.bright =
+            likeness(search, part, true, balls_among) >= likeness(search, part, false, balls_among);
+      }
     }
+    find_bodies(search, smooth);
     typical = typical_radius(search.seeds);
     if (factor == 1 || typical >= least_radius_in_nodes * static_cast<double>(factor)) break;
   }

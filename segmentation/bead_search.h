@@ -36,7 +36,8 @@ struct SearchSetting {
 /// Looks for beads on the volume reduced by a power of two, lightly smoothed against noise: as coarse as
 /// `most_nodes` asks, twofold at least, and finer where the typical bead is less than eight nodes across. The
 /// tone, where it is automatic, is that of the class for which this product is greater: the share
-/// `balls_among` its bodies, and the share of its volume that their inscribed balls fill.
+/// `balls_among` its bodies, and the share of its volume that their inscribed balls fill; judged where grey
+/// values vary most.
 BeadSearch search_beads(const Volume& volume, const SearchSetting& setting, const BallShare& balls_among);
 
 /// Seeds in what the balls leave of the mask, at least `least_radius` voxels in radius: beads that were

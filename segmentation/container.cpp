@@ -199,8 +199,8 @@ std::vector<MeanAndSpread> slices_of(const Grid<float>& grey, const Disc& tube) 
     double n = 0.0, sum = 0.0, squares = 0.0;
     for (std::size_t j = 0; j < grey.size[1]; ++j)
       for (std::size_t i = 0; i < grey.size[0]; ++i) {
-        if (std::hypot(static_cast<double>(i) - tube.x, static_cast<double>(j) - tube.y) > 0.9 * tube.radius)
-          continue;
+        const double x = static_cast<double>(i) - tube.x, y = static_cast<double>(j) - tube.y;
+        if (x * x + y * y > 0.81 * tube.radius * tube.radius) continue;
         const double g = grey.values[grey.index(i, j, k)];
         n += 1.0;
         sum += g;
@@ -254,9 +254,10 @@ void clear_outside(Grid<std::uint8_t>& mask, const Container& container) {
     for (std::size_t j = 0; j < mask.size[1]; ++j)
       for (std::size_t i = 0; i < mask.size[0]; ++i) {
         const Vec3 p = mask.at(i, j, k);
-        const bool within =
-            std::hypot(p.x() - container.axis_x, p.y() - container.axis_y) < container.radius &&
-            (!container.bottom || p.z() > *container.bottom) && (!container.top || p.z() < *container.top);
+        const double x = p.x() - container.axis_x, y = p.y() - container.axis_y;
+        const bool within = x * x + y * y < container.radius * container.radius &&
+                            (!container.bottom || p.z() > *container.bottom) &&
+                            (!container.top || p.z() < *container.top);
         if (!within) mask.values[mask.index(i, j, k)] = 0;
       }
   });

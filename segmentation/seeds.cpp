@@ -17,23 +17,63 @@ struct Box {
   std::array<std::size_t, 3> low{}, high{};
 };
 
-/// What the mask takes up in slices [from, to), and a layer of nodes around it; none if nothing.
-std::optional<Box> occupied(const Grid<std::uint8_t>& mask, std::size_t from, std::size_t to) {
-  std::array<std::size_t, 2> least{mask.size[0], mask.size[1]}, greatest{0, 0};
-  for (std::size_t k = from; k < to; ++k)
-    for (std::size_t j = 0; j < mask.size[1]; ++j) {
-      const auto* row = mask.values.data() + mask.index(0, j, k);
-      const auto* first = static_cast<const std::uint8_t*>(std::memchr(row, 1, mask.size[0]));
+/// Sets nodes to zero but those with `reach` nodes of the mask on either side along one line of it; beyond
+/// its ends there may be anything.
+void erode_line(std::uint8_t* first, std::size_t count, std::size_t stride, std::size_t reach) {
+  std::size_t run = reach;
+  for (std::size_t n = 0; n < count + reach; ++n) {
+    run = n >= count || first[n * stride] ? run + 1 : 0;
+    if (n >= reach) first[(n - reach) * stride] = run > 2 * reach;
+  }
+}
+
+/// The same for `width` lines side by side, a row at a time.
+void erode_rows(std::uint8_t* first, std::size_t width, std::size_t count, std::size_t stride,
+                std::size_t reach) {
+  std::vector<std::uint32_t> run(width, static_cast<std::uint32_t>(reach));
+  const auto enough = static_cast<std::uint32_t>(2 * reach);
+  for (std::size_t n = 0; n < count + reach; ++n) {
+    const std::uint8_t* row = n < count ? first + n * stride : nullptr;
+    for (std::size_t i = 0; i < width; ++i) run[i] = !row || row[i] ? run[i] + 1 : 0;
+    if (n < reach) continue;
+    std::uint8_t* out = first + (n - reach) * stride;
+    for (std::size_t i = 0; i < width; ++i) out[i] = run[i] > enough;
+  }
+}
+
+/// What nodes of slices [from, to) whose ball of `radius` nodes may be within the mask take up: those with a
+/// cube of the mask around them that such a ball holds. None if there is no such node.
+std::optional<Box> roomy(const Grid<std::uint8_t>& mask, std::size_t from, std::size_t to, double radius) {
+  const std::size_t nx = mask.size[0], ny = mask.size[1], nz = to - from, slice = nx * ny;
+  const auto begin = mask.values.begin() + static_cast<std::ptrdiff_t>(from * slice);
+  std::vector<std::uint8_t> core(begin, begin + static_cast<std::ptrdiff_t>(nz * slice));
+  const auto reach = static_cast<std::size_t>(std::max(0.0, radius - 0.5) / std::sqrt(3.0));
+  for (std::size_t k = 0; k < nz; ++k) {
+    for (std::size_t j = 0; j < ny; ++j) erode_line(core.data() + k * slice + j * nx, nx, 1, reach);
+    erode_rows(core.data() + k * slice, nx, ny, nx, reach);
+  }
+  erode_rows(core.data(), slice, nz, slice, reach);
+  Box box{{nx, ny, nz}, {0, 0, 0}};
+  for (std::size_t k = 0; k < nz; ++k)
+    for (std::size_t j = 0; j < ny; ++j) {
+      const std::uint8_t* row = core.data() + k * slice + j * nx;
+      const auto* first = static_cast<const std::uint8_t*>(std::memchr(row, 1, nx));
       if (!first) continue;
-      const auto* last = static_cast<const std::uint8_t*>(::memrchr(row, 1, mask.size[0]));
-      least = {std::min<std::size_t>(least[0], first - row), std::min(least[1], j)};
-      greatest = {std::max<std::size_t>(greatest[0], last - row), std::max(greatest[1], j)};
+      const auto* last = static_cast<const std::uint8_t*>(::memrchr(row, 1, nx));
+      box.low = {std::min<std::size_t>(box.low[0], first - row), std::min(box.low[1], j),
+                 std::min(box.low[2], k)};
+      box.high = {std::max<std::size_t>(box.high[0], last - row + 1), std::max(box.high[1], j + 1), k + 1};
     }
-  if (least[1] == mask.size[1]) return std::nullopt;
-  Box box{{0, 0, from}, {0, 0, to}};
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    box.low[axis] = least[axis] - std::min<std::size_t>(least[axis], 1);
-    box.high[axis] = std::min(mask.size[axis], greatest[axis] + 2);
+  if (box.high[2] == 0) return std::nullopt;
+  box.low[2] += from, box.high[2] += from;
+  return box;
+}
+
+/// With `margin` more nodes on all sides, as far as there are any.
+Box widened(Box box, std::size_t margin, const std::array<std::size_t, 3>& size) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] -= std::min(box.low[axis], margin);
+    box.high[axis] = std::min(size[axis], box.high[axis] + margin);
   }
   return box;
 }
@@ -55,9 +95,9 @@ struct Summit {
   std::size_t node;
 };
 
-/// Nodes of slices [first, last) that no neighbour among 26 exceeds, with a distance above `least`; of equal
-/// neighbours the first.
-std::vector<Summit> summits(const Grid<float>& distance, std::size_t first, std::size_t last, double least) {
+/// Nodes of a part, within `core`, that no neighbour among 26 exceeds, with a distance above `least`; of
+/// equal neighbours the first. Nodes are counted in the part.
+std::vector<Summit> summits(const Grid<float>& distance, const Box& core, double least) {
   const auto& size = distance.size;
   const auto highest = [&](std::size_t i, std::size_t j, std::size_t k) {
     const std::size_t n = distance.index(i, j, k);
@@ -71,41 +111,53 @@ std::vector<Summit> summits(const Grid<float>& distance, std::size_t first, std:
     return true;
   };
   std::vector<Summit> found;
-  for (std::size_t k = first; k < last; ++k)
-    for (std::size_t j = 0; j < size[1]; ++j)
-      for (std::size_t i = 0; i < size[0]; ++i)
+  for (std::size_t k = core.low[2]; k < core.high[2]; ++k)
+    for (std::size_t j = core.low[1]; j < core.high[1]; ++j)
+      for (std::size_t i = core.low[0]; i < core.high[0]; ++i)
         if (const std::size_t n = distance.index(i, j, k); distance.values[n] > least && highest(i, j, k))
           found.push_back({distance.values[n], n});
   return found;
 }
 
-/// Summits of slices [first, last) of the mask. The map is made of these slices and so many around them that
-/// no surface beyond could be nearer.
+float greatest_within(const Grid<float>& distance, const Box& core) {
+  float greatest = 0.0F;
+  for (std::size_t k = core.low[2]; k < core.high[2]; ++k)
+    for (std::size_t j = core.low[1]; j < core.high[1]; ++j)
+      for (std::size_t i = core.low[0]; i < core.high[0]; ++i)
+        greatest = std::max(greatest, distance.values[distance.index(i, j, k)]);
+  return greatest;
+}
+
+/// Summits of slices [first, last) of the mask above `least` nodes. The map is made of where they may be and
+/// of so much around it that no surface beyond could be nearer.
 std::vector<Summit> summits_between(const Grid<std::uint8_t>& mask, std::size_t first, std::size_t last,
                                     double least) {
-  for (std::size_t margin = 16;; margin *= 2) {
-    const std::size_t from = first - std::min(first, margin), to = std::min(mask.size[2], last + margin);
-    const auto box = occupied(mask, from, to);
-    if (!box) return {};
-    const Grid<float> distance = distance_inside(part_of(mask, *box));
-    const std::size_t slice = distance.size[0] * distance.size[1];
-    const auto core = distance.values.begin() + static_cast<std::ptrdiff_t>((first - from) * slice);
-    const float greatest =
-        *std::max_element(core, core + static_cast<std::ptrdiff_t>((last - first) * slice));
-    if (greatest > static_cast<float>(margin - 2) && (from > 0 || to < mask.size[2])) continue;
-    auto found = summits(distance, first - from, last - from, least);
-    for (Summit& summit : found) {
-      const std::size_t i = summit.node % distance.size[0],
-                        j = summit.node / distance.size[0] % distance.size[1], k = summit.node / slice;
-      summit.node = mask.index(box->low[0] + i, box->low[1] + j, from + k);
-    }
+  const auto room = roomy(mask, first, last, least);
+  if (!room) return {};
+  constexpr std::size_t greatest_margin = 160;  // what is wider than this is no bead
+  for (std::size_t margin : {std::size_t{16}, std::size_t{64}, greatest_margin}) {
+    const Box box = widened(*room, margin, mask.size);
+    const Grid<float> distance = distance_inside(part_of(mask, box));
+    Box core = *room;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      core.low[axis] -= box.low[axis], core.high[axis] -= box.low[axis];
+    const bool whole = box.low == std::array<std::size_t, 3>{} && box.high == mask.size;
+    if (!whole && margin < greatest_margin &&
+        greatest_within(distance, core) > static_cast<float>(margin - 2))
+      continue;
+    auto found = summits(distance, core, least);
+    for (Summit& summit : found)
+      summit.node = mask.index(box.low[0] + summit.node % distance.size[0],
+                               box.low[1] + summit.node / distance.size[0] % distance.size[1],
+                               box.low[2] + summit.node / (distance.size[0] * distance.size[1]));
     return found;
   }
+  return {};
 }
 
 /// From the highest down.
 std::vector<Summit> all_summits(const Grid<std::uint8_t>& mask, double least) {
-  constexpr std::size_t thickness = 48;
+  constexpr std::size_t thickness = 96;
   std::vector<std::vector<Summit>> found((mask.size[2] + thickness - 1) / thickness);
   for_blocks(mask.size[2], thickness, [&](std::size_t first, std::size_t last) {
     found[first / thickness] = summits_between(mask, first, last, least);

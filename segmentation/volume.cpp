@@ -1,8 +1,9 @@
 #include "segmentation/volume.h"
 
-#include "segmentation/itk_images.h"
+#include "segmentation/image_io.h"
 
 #include <itkMetaImageIO.h>
+#include <itkTIFFImageIO.h>
 
 #include <iostream>
 
@@ -23,6 +24,18 @@ struct SilentErrors {
   ~SilentErrors() { std::cerr.rdbuf(usual); }
 };
 
+itk::ImageIOBase::Pointer writer_of(const fs::path& path, const Volume& volume) {
+  const std::string extension = lower_extension(path);
+  if (extension == ".mha") return itk::MetaImageIO::New().GetPointer();
+  if (extension != ".tif" && extension != ".tiff")
+    throw BadUsage(fmt::format("{}: found extension '{}', expected .mha or .tif", path.string(), extension));
+  if (std::holds_alternative<std::vector<std::uint32_t>>(volume.pixels))
+    throw BadUsage(fmt::format("{}: found voxels of 32 bit, expected .mha for them", path.string()));
+  auto tiff = itk::TIFFImageIO::New();
+  tiff->UseCompressionOff();
+  return tiff.GetPointer();
+}
+
 }  // namespace
 
 std::string pixel_type(const Volume& volume) {
@@ -35,10 +48,8 @@ void release(const Volume& volume) {
 }
 
 void write_volume(const fs::path& path, const Volume& volume, const Provenance& provenance) {
-  if (path.extension() != ".mha")
-    throw BadUsage(fmt::format("{}: found a name that does not end in .mha, expected .mha", path.string()));
+  const auto io = writer_of(path, volume);
   write_atomically(path, [&](const fs::path& temporary) {
-    auto io = itk::MetaImageIO::New();
     itk::ImageIORegion region(3);
     io->SetNumberOfDimensions(3);
     for (unsigned axis = 0; axis < 3; ++axis) {

@@ -1,6 +1,7 @@
 #include "segmentation/segment.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <fstream>
 
@@ -135,6 +136,53 @@ TEST(Segment, LabelsBelongToTheNearestBall) {
   write_qa(folder.path(), volume, found);
   for (const char* name : {"slice_xy_1.png", "slice_xz_3.png", "residual_xy.png", "fractional_positions.png"})
     EXPECT_GT(fs::file_size(folder / name), 500u) << name;
+}
+
+/// Eight bits, more than 2^31 voxels, all but the last corner of them a hole in the file.
+std::vector<test::TrueBall> write_sparse_volume(const fs::path& path, std::size_t edge) {
+  std::vector<test::TrueBall> balls;
+  for (int n = 0; n < 27; ++n)
+    balls.push_back(
+        {Vec3(41.3 + n % 3 * 81.0, 41.7 + n / 3 % 3 * 81.0, 42.1 + n / 9 * 81.0), 40.0 - 0.1 * n});
+  constexpr std::size_t corner = 256;
+  const Volume volume = test::ball_volume({corner, corner, corner}, balls, 1.0, 0.0, 0.0, 200.0);
+  const auto& grey = std::get<std::vector<std::uint16_t>>(volume.pixels);
+  std::ofstream out(path, std::ios::binary);
+  const std::size_t shift = edge - corner;
+  for (std::size_t k = 0; k < corner; ++k)
+    for (std::size_t j = 0; j < corner; ++j) {
+      std::string row;
+      for (std::size_t i = 0; i < corner; ++i)
+        row.push_back(static_cast<char>(grey[(k * corner + j) * corner + i]));
+      out.seekp(static_cast<std::streamoff>(((shift + k) * edge + shift + j) * edge + shift));
+      out.write(row.data(), static_cast<std::streamsize>(row.size()));
+    }
+  for (test::TrueBall& ball : balls) ball.centre.array() += static_cast<double>(shift);
+  return balls;
+}
+
+TEST(Segment, MoreVoxelsThanSignedNumbersOf32BitsAndThanMemoryAllows) {
+  constexpr std::size_t edge = 1300;
+  const test::ScratchFolder folder;
+  const auto balls = write_sparse_volume(folder / "v.raw", edge);
+  rlimit usual{};
+  ::getrlimit(RLIMIT_DATA, &usual);
+  const rlimit less_than_the_volume = {2'100'000'000, usual.rlim_max};
+  ::setrlimit(RLIMIT_DATA, &less_than_the_volume);
+  const Volume volume = read_volume(folder / "v.raw", {1e-6, std::array{edge, edge, edge}, "uint8"});
+  const Segmentation found = segment(volume);
+  ::setrlimit(RLIMIT_DATA, &usual);
+  ASSERT_GT(volume.voxels(), std::size_t{1} << 31);
+  std::vector<Bead> truth;
+  for (const auto& ball : balls) {
+    truth.emplace_back();
+    truth.back().centre = 1e-6 * ball.centre;
+    truth.back().diameter = 2e-6 * ball.radius;
+  }
+  const Comparison result = compare(truth, found.beads, volume.spacing);
+  EXPECT_EQ(result.missed, 0);
+  EXPECT_EQ(result.invented, 0);
+  EXPECT_LT(result.centre_rms, 0.02);
 }
 
 TEST(Segment, FindsDarkBeadsByItself) {
