@@ -14,6 +14,7 @@
 #include <map>
 
 #include "base/progress.h"
+#include "segmentation/resample.h"
 
 namespace pendular {
 namespace {
@@ -151,20 +152,41 @@ void allocate(Volume& volume, const fs::path& path, std::uintmax_t data_bytes) {
   std::visit([&](auto& pixels) { pixels.resize(volume.voxels()); }, volume.pixels);
 }
 
-void place(Volume& volume, itk::ImageIOBase* io, const fs::path& path, const ReadOptions& options) {
+std::array<double, 3> over_shortest(const std::array<double, 3>& edges, const fs::path& path) {
+  constexpr double alike = 1e-3, most = 8.0;
+  const auto [shortest, longest] = std::minmax_element(edges.begin(), edges.end());
+  if (!(*shortest > 0.0) || !(*longest <= most * *shortest))
+    bad_input("{}: found voxels of {} x {} x {}, expected edges within a factor of {}", path.string(),
+              edges[0], edges[1], edges[2], most);
+  std::array<double, 3> over{1.0, 1.0, 1.0};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (edges[axis] > (1.0 + alike) * *shortest) over[axis] = edges[axis] / *shortest;
+  return over;
+}
+
+Volume made_cubic(Volume volume, const std::array<double, 3>& edges, const fs::path& path) {
+  if (edges == std::array{1.0, 1.0, 1.0}) return volume;
+  warn(fmt::format("{}: voxels of {:.4g} x {:.4g} x {:.4g} um: taken to cubic ones of {:.4g} um between them",
+                   path.string(), 1e6 * volume.spacing * edges[0], 1e6 * volume.spacing * edges[1],
+                   1e6 * volume.spacing * edges[2], 1e6 * volume.spacing));
+  return resampled(volume, edges);
+}
+
+std::array<double, 3> place(Volume& volume, itk::ImageIOBase* io, const fs::path& path,
+                            const ReadOptions& options) {
   std::optional<double> spacing = options.spacing;
+  std::array<double, 3> edges{1.0, 1.0, 1.0};
   if (io) {
     const double unit = header_unit(path);
-    const double first = io->GetSpacing(0);
-    for (unsigned axis = 0; axis < 3; ++axis)
-      if (!options.spacing && !(std::abs(io->GetSpacing(axis) - first) <= 1e-3 * std::abs(first)))
-        bad_input("{}: found voxels of {} x {} x {}, expected cubic ones (or the edge by --voxel-um)",
-                  path.string(), io->GetSpacing(0), io->GetSpacing(1), io->GetSpacing(2));
-    const bool stated = std::abs(first) > 0.0 && first != 1.0;
-    if (!spacing && stated) spacing = std::abs(first) * unit;
+    std::array<double, 3> header;
+    for (unsigned axis = 0; axis < 3; ++axis) header[axis] = std::abs(io->GetSpacing(axis));
+    if (!options.spacing) edges = over_shortest(header, path);
+    const double shortest = *std::min_element(header.begin(), header.end());
+    const bool stated = shortest > 0.0 && (shortest != 1.0 || edges != std::array{1.0, 1.0, 1.0});
+    if (!spacing && stated) spacing = shortest * unit;
     for (unsigned axis = 0; axis < 3; ++axis)  // an offset in voxels follows an overriding voxel size
       volume.origin[axis] =
-          stated && spacing ? io->GetOrigin(axis) / std::abs(first) * *spacing : io->GetOrigin(axis) * unit;
+          stated && spacing ? io->GetOrigin(axis) / shortest * *spacing : io->GetOrigin(axis) * unit;
   }
   if (!spacing)
     warn(fmt::format(
@@ -174,6 +196,7 @@ void place(Volume& volume, itk::ImageIOBase* io, const fs::path& path, const Rea
   if (!(volume.spacing > 0.0) || !std::isfinite(volume.spacing))
     bad_input("{}: found a voxel size of {} um, expected a positive number", path.string(),
               volume.spacing * 1e6);
+  return edges;
 }
 
 }  // namespace pendular

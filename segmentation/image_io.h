@@ -59,7 +59,16 @@ char* bytes(Volume& volume);
 /// `data_bytes` is not there.
 void allocate(Volume& volume, const fs::path& path, std::uintmax_t data_bytes);
 
-/// Voxel size and origin from a header (null: none that is meant) and options.
-void place(Volume& volume, itk::ImageIOBase* io, const fs::path& path, const ReadOptions& options);
+/// Voxel size and origin from a header (null: none that is meant) and options. Where the header's voxels are
+/// not cubic and the options do not overrule it, the size is that of the shortest edge. Returns the edges
+/// over it.
+std::array<double, 3> place(Volume& volume, itk::ImageIOBase* io, const fs::path& path,
+                            const ReadOptions& options);
+
+/// Edges over the shortest; ones where they agree to a thousandth. BadInput beyond a factor of eight.
+std::array<double, 3> over_shortest(const std::array<double, 3>& edges, const fs::path& path);
+
+/// The volume on cubic voxels, with a warning where it was not.
+Volume made_cubic(Volume volume, const std::array<double, 3>& edges, const fs::path& path);
 
 }  // namespace pendular

@@ -111,18 +111,17 @@ void read_frames(itk::ImageIOBase& io, const fs::path& file, Volume& volume, std
              volume.pixels);
 }
 
-void set_spacing(Volume& volume, const itk::ImageIOBase& first, double between, const fs::path& path,
-                 const ReadOptions& options) {
-  const double x = first.GetSpacing(0), y = first.GetSpacing(1),
-               z = between > 0.0 ? between : first.GetSpacing(2);
-  if (!options.spacing && (std::fabs(y - x) > 1e-3 * x || std::fabs(z - x) > 1e-3 * x))
-    bad_input("{}: found voxels of {} x {} x {} mm, expected cubic ones (or the edge by --voxel-um)",
-              path.string(), x, y, z);
-  volume.spacing = options.spacing.value_or(kMillimetre * x);
+/// Returns the edges of a voxel over the shortest.
+std::array<double, 3> set_spacing(Volume& volume, const itk::ImageIOBase& first, double between,
+                                  const fs::path& path, const ReadOptions& options) {
+  const std::array<double, 3> edges{first.GetSpacing(0), first.GetSpacing(1),
+                                    between > 0.0 ? between : first.GetSpacing(2)};
+  volume.spacing = options.spacing.value_or(kMillimetre * *std::min_element(edges.begin(), edges.end()));
   volume.origin = kMillimetre * origin_of(first);
   if (!(volume.spacing > 0.0) || !std::isfinite(volume.spacing))
     bad_input("{}: found a voxel size of {} um, expected a positive number", path.string(),
               volume.spacing * 1e6);
+  return options.spacing ? std::array{1.0, 1.0, 1.0} : over_shortest(edges, path);
 }
 
 Volume read_series(const fs::path& path, const ReadOptions& options) {
@@ -154,8 +153,8 @@ Volume read_series(const fs::path& path, const ReadOptions& options) {
     read_frames(*io, files[k], volume, k * volume.size[0] * volume.size[1]);
     progress.update(static_cast<double>(k + 1));
   }
-  set_spacing(volume, *first, between, path, options);
-  return volume;
+  const auto edges = set_spacing(volume, *first, between, path, options);
+  return made_cubic(std::move(volume), edges, path);
 }
 
 /// Addresses in use, bytes.

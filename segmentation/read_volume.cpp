@@ -114,14 +114,14 @@ Volume read_one_file(const fs::path& path, const ReadOptions& options) {
   const auto least_bytes = detached ? std::numeric_limits<std::uintmax_t>::max() : fs::file_size(path);
   // The resolution tag of a TIFF is a printer's and rarely the scanner's.
   const bool spacing_is_meant = meta || extension == ".nrrd" || extension == ".nhdr";
-  place(volume, spacing_is_meant ? io.GetPointer() : nullptr, path, options);
+  const auto edges = place(volume, spacing_is_meant ? io.GetPointer() : nullptr, path, options);
   if (plain) {
     map_pixels(volume, *plain);
-    return volume;
+  } else {
+    allocate(volume, path, least_bytes);
+    read_pixels(*io, path, bytes(volume));
   }
-  allocate(volume, path, least_bytes);
-  read_pixels(*io, path, bytes(volume));
-  return volume;
+  return made_cubic(std::move(volume), edges, path);
 }
 
 Volume read_raw(const fs::path& path, const ReadOptions& options) {

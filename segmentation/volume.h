@@ -77,10 +77,11 @@ struct ReadOptions {
 /// of their names (z rising), DICOM (a series in a folder, or a file of several frames; lengths in mm), a GE
 /// phoenix volume (.pcr, or .vol beside one; mm), or, with `raw_size`, a headerless file. Other lengths in a
 /// header count as µm, unless an NRRD names another unit; spacing 1 or none means unknown: 1 µm, with a
-/// warning. BadInput, in one line, for whatever does not hold a grey volume of cubic voxels: truncated data,
-/// a header that does not match it, a missing slice, slices of several sizes, colours, other pixel types, NaN
-/// or infinity, or one grey value throughout. Uncompressed MetaImage, headerless and phoenix data stay in
-/// their file, so the volume may be larger than memory.
+/// warning. Voxels that are not cubic are taken to cubic ones of their shortest edge
+/// (segmentation/resample.h), with a warning. BadInput, in one line, for whatever does not hold a grey
+/// volume: truncated data, a header that does not match it, a missing slice, slices of several sizes,
+/// colours, other pixel types, NaN or infinity, or one grey value throughout. Uncompressed MetaImage,
+/// headerless and phoenix data stay in their file, so the volume may be larger than memory.
 Volume read_volume(const fs::path& path, const ReadOptions& options = {});
 
 /// Writes a MetaImage (.mha; lengths in µm, provenance in its header) or a TIFF of one page per slice (.tif,

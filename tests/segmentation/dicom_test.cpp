@@ -108,7 +108,7 @@ TEST(Dicom, WhatIsWrongWithASeriesIsOneLine) {
   EXPECT_NE(error_of(two).find("2 DICOM series"), std::string::npos) << error_of(two);
   const auto flat = series(
       "flat", [&](const fs::path& p, std::size_t k) { write_slice<std::uint16_t>(p, k, 2.0 * height(k)); });
-  EXPECT_NE(error_of(flat).find("cubic"), std::string::npos) << error_of(flat);
+  EXPECT_EQ(read_volume(flat).size, (std::array<std::size_t, 3>{kWide, kDeep, 2 * kSlices - 1}));
   ReadOptions options;
   options.spacing = 5e-6;
   EXPECT_EQ(error_of(flat, options), "");

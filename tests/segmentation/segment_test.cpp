@@ -12,6 +12,7 @@
 #include "scratch.h"
 #include "segmentation/phantom.h"
 #include "segmentation/qa.h"
+#include "segmentation/resample.h"
 
 namespace pendular {
 namespace {
@@ -48,6 +49,17 @@ Comparison compare(const std::vector<Bead>& truth, const std::vector<Bead>& foun
   result.diameter_bias = difference / n / voxel;
   result.pull = std::sqrt(pulls / n);
   return result;
+}
+
+/// Voxels of 1 um.
+std::vector<Bead> beads_of(const std::vector<test::TrueBall>& balls) {
+  std::vector<Bead> beads;
+  for (const auto& ball : balls) {
+    beads.emplace_back();
+    beads.back().centre = 1e-6 * ball.centre;
+    beads.back().diameter = 2e-6 * ball.radius;
+  }
+  return beads;
 }
 
 struct PhantomCase {
@@ -138,6 +150,26 @@ TEST(Segment, LabelsBelongToTheNearestBall) {
     EXPECT_GT(fs::file_size(folder / name), 500u) << name;
 }
 
+TEST(Segment, VoxelsTwiceAsHighAsTheyAreWide) {
+  const std::vector<test::TrueBall> balls = {
+      {Vec3(20.3, 20.1, 20.4), 9.0}, {Vec3(40.2, 20.6, 20.2), 10.0}, {Vec3(30.5, 38.3, 22.7), 9.5}};
+  const Volume volume = test::ball_volume({60, 60, 44}, balls, 1.0, 0.05);
+  const auto& grey = std::get<std::vector<std::uint16_t>>(volume.pixels);
+  std::vector<std::uint16_t> pairs(grey.size() / 2);  // means of two slices
+  const std::size_t slice = volume.size[0] * volume.size[1];
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    const std::size_t k = n / slice, first = 2 * k * slice + n % slice;
+    pairs[n] = static_cast<std::uint16_t>((grey[first] + grey[first + slice]) / 2);
+  }
+  const Volume high{{60, 60, 22}, volume.spacing, 0.5 * volume.spacing * Vec3::UnitZ(), pairs};
+  const Segmentation found = segment(resampled(high, {1.0, 1.0, 2.0}));
+  const Comparison result = compare(beads_of(balls), found.beads, volume.spacing);
+  EXPECT_EQ(result.missed, 0);
+  EXPECT_EQ(result.invented, 0);
+  EXPECT_LT(result.centre_rms, 0.02);
+  EXPECT_LT(std::abs(result.diameter_bias), 0.1);
+}
+
 /// Eight bits, more than 2^31 voxels, all but the last corner of them a hole in the file.
 std::vector<test::TrueBall> write_sparse_volume(const fs::path& path, std::size_t edge) {
   std::vector<test::TrueBall> balls;
@@ -173,13 +205,7 @@ TEST(Segment, MoreVoxelsThanSignedNumbersOf32BitsAndThanMemoryAllows) {
   const Segmentation found = segment(volume);
   ::setrlimit(RLIMIT_DATA, &usual);
   ASSERT_GT(volume.voxels(), std::size_t{1} << 31);
-  std::vector<Bead> truth;
-  for (const auto& ball : balls) {
-    truth.emplace_back();
-    truth.back().centre = 1e-6 * ball.centre;
-    truth.back().diameter = 2e-6 * ball.radius;
-  }
-  const Comparison result = compare(truth, found.beads, volume.spacing);
+  const Comparison result = compare(beads_of(balls), found.beads, volume.spacing);
   EXPECT_EQ(result.missed, 0);
   EXPECT_EQ(result.invented, 0);
   EXPECT_LT(result.centre_rms, 0.02);
