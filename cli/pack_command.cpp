@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/sample.h"
@@ -26,6 +28,25 @@ void check_unit(const PackOptions& options, const std::vector<Bead>& beads, cons
         "{}: column diameter_um: found a mean of {:.4g}, expected about {:.4g} (beads.diameter_um of {}; "
         "wrong unit?)",
         options.beads.string(), 1e6 * mean, 1e6 * expected, options.sample.string());
+}
+
+/// Beads tell twice how large they are, by their width and by how far apart those lie that touch. A wrong
+/// voxel size scales both.
+void check_scale(const std::vector<Bead>& beads, const Structure& structure, const Sample& sample) {
+  constexpr double alike = 0.025;
+  const double said = sample.beads.diameter, mean = mean_diameter(beads), peak = structure.first_peak;
+  const auto differ = [](double a, double b) { return std::fabs(a / b - 1.0) > alike; };
+  if (peak == 0.0) return;
+  if (differ(peak, mean))
+    warn(
+        fmt::format("the beads are {:.1f} um wide on average, but g(r) has its first peak at {:.1f} um: "
+                    "diameters may be biased",
+                    1e6 * mean, 1e6 * peak));
+  else if (differ(peak, said) && differ(mean, said))
+    warn(
+        fmt::format("the beads are {:.1f} um wide and g(r) has its first peak at {:.1f} um, the sample says "
+                    "{:.1f} um: the voxel size may be {:.3f} times what it should be",
+                    1e6 * mean, 1e6 * peak, 1e6 * said, peak / said));
 }
 
 void check_extent(const Packing& packing) {
@@ -89,7 +110,9 @@ void run(const PackOptions& options) {
   const PackingStatistics statistics =
       packing_statistics(packing, sample.bridges.cutoff * sample.beads.diameter);
   nlohmann::ordered_json json = to_json(statistics);
-  json["structure"] = to_json(structure_of(packing));
+  const Structure structure = structure_of(packing);
+  if (!options.generate) check_scale(packing.beads, structure, sample);
+  json["structure"] = to_json(structure);
   json["provenance"] = to_json(packing.provenance);
   write_packing(options.common.out, packing);
   write_text(fs::path(options.common.out).replace_extension(".json"), json.dump(2) + "\n");

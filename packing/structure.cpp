@@ -58,6 +58,20 @@ void add_radial_distribution(const Packing& packing, double diameter, Structure&
   }
 }
 
+/// In mean diameters, refined by the centre of gravity of the highest shell and its neighbours.
+double first_peak_of(const Structure& structure) {
+  constexpr double near = 0.2, high = 1.5;
+  std::size_t best = 0;
+  for (std::size_t k = 1; k + 1 < structure.g.size(); ++k)
+    if (std::fabs(structure.r_over_d[k] - 1.0) < near && structure.g[k] > std::max(high, structure.g[best]))
+      best = k;
+  if (best == 0) return 0.0;
+  double weight = 0.0, sum = 0.0;
+  for (std::size_t k = best - 1; k <= best + 1; ++k)
+    weight += structure.g[k], sum += structure.g[k] * structure.r_over_d[k];
+  return sum / weight;
+}
+
 void add_slabs(const Packing& packing, Structure& structure) {
   Specimen slab = packing.specimen;
   slab.height /= static_cast<double>(kSlabs);
@@ -141,6 +155,7 @@ Structure structure_of(const Packing& packing) {
     if (bridge.state == BridgeState::bridge || bridge.state == BridgeState::candidate)
       bridges.push_back(bridge);
   add_radial_distribution(packing, mean_diameter(packing.beads), structure);
+  structure.first_peak = first_peak_of(structure) * mean_diameter(packing.beads);
   add_slabs(packing, structure);
   add_orientation(packing, bridges, structure);
   add_necks(packing, bridges, structure);
@@ -156,13 +171,15 @@ nlohmann::ordered_json to_json(const Structure& structure) {
              {"bridge_diameter_sd_um", 1e6 * structure.neck_sd},
              {"polymer_volume_mm3", 1e9 * structure.polymer_volume},
              {"meeting_bridges", structure.meeting}};
-  return {{"radial_distribution", {{"r_over_d", structure.r_over_d}, {"g", structure.g}}},
-          {"volume_fraction_by_height", {{"z_um", middles}, {"volume_fraction", structure.slab_fraction}}},
-          {"orientation",
-           {{"mean_cos2_to_axis", structure.cos2},
-            {"standard_error", structure.cos2_error},
-            {"by_cos_to_axis", structure.orientation}}},
-          {"necks", necks}};
+  return {
+      {"radial_distribution",
+       {{"r_over_d", structure.r_over_d}, {"g", structure.g}, {"first_peak_um", 1e6 * structure.first_peak}}},
+      {"volume_fraction_by_height", {{"z_um", middles}, {"volume_fraction", structure.slab_fraction}}},
+      {"orientation",
+       {{"mean_cos2_to_axis", structure.cos2},
+        {"standard_error", structure.cos2_error},
+        {"by_cos_to_axis", structure.orientation}}},
+      {"necks", necks}};
 }
 
 }  // namespace pendular

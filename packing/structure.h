@@ -14,6 +14,10 @@ struct Structure {
   /// are.
   std::vector<double> r_over_d, g;
 
+  /// Where g(r) has its first peak, the highest between 0.8 and 1.2 D: what beads that touch are apart, to
+  /// about a hundredth. 0 where none rises above 1.5.
+  double first_peak = 0.0;
+
   /// Volume fraction in ten slabs of equal height, from below.
   std::vector<double> slab_middle, slab_fraction;
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "segmentation/ball_profile.h"
 #include "segmentation/qa_contacts.h"
+#include "segmentation/qa_radii.h"
 
 namespace pendular {
 namespace {
@@ -206,6 +207,7 @@ void write_qa(const fs::path& folder, const Volume& volume, const Segmentation& 
     write_png(folder / fmt::format("residual_{}.png", name), residual(volume, segmentation, cuts[1]));
   }
   write_png(folder / "fractional_positions.png", fractional_positions(volume, segmentation.beads));
+  write_png(folder / "diameters.png", radius_map(volume, segmentation));
   if (!segmentation.measured) return;
   write_png(folder / "contacts.png", contact_montage(volume, segmentation));
   write_png(folder / "mean_residuals.png", mean_residuals(volume, segmentation));

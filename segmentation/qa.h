@@ -12,6 +12,7 @@ namespace pendular {
 ///   misfits remain;
 /// - `fractional_positions.png`: histogram of the centres' position within their voxel, per axis, with the
 ///   ±2σ band of an even spread. Peaks tell of centres locked to the grid;
+/// - `diameters.png`: mean diameter over distance from the axis and height (qa_radii.h);
 /// - where bridges were looked for, `contacts.png`, `mean_residuals.png` and, after calibration,
 ///   `recovery.png` (qa_contacts.h).
 void write_qa(const fs::path& folder, const Volume& volume, const Segmentation& segmentation);

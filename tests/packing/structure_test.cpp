@@ -66,6 +66,14 @@ TEST(Structure, ALatticeHasItsShells) {
   EXPECT_NEAR(first * 4.0 * M_PI * 0.02, 6.0, 0.5);
 }
 
+TEST(Structure, TheFirstPeakIsWhereBeadsTouchWhateverTheirDiameters) {
+  Packing packing = lattice(12);
+  EXPECT_NEAR(structure_of(packing).first_peak / kDiameter, 1.0, 0.011);
+  for (Bead& bead : packing.beads) bead.diameter *= 1.07;
+  EXPECT_NEAR(structure_of(packing).first_peak / kDiameter, 1.0, 0.011);
+  EXPECT_EQ(structure_of(gas()).first_peak, 0.0);
+}
+
 TEST(Structure, OrientationAndNecksOfKnownBridges) {
   Packing packing = lattice(3);
   const auto bridge = [&](int i, int j, double diameter) {

@@ -146,7 +146,8 @@ TEST(Segment, LabelsBelongToTheNearestBall) {
   }
   const test::ScratchFolder folder;
   write_qa(folder.path(), volume, found);
-  for (const char* name : {"slice_xy_1.png", "slice_xz_3.png", "residual_xy.png", "fractional_positions.png"})
+  for (const char* name :
+       {"slice_xy_1.png", "slice_xz_3.png", "residual_xy.png", "fractional_positions.png", "diameters.png"})
     EXPECT_GT(fs::file_size(folder / name), 500u) << name;
 }
 
