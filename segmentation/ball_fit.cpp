@@ -28,14 +28,15 @@ class Hidden {
       : centre_(balls[own].centre),
         container_(container ? &*container : nullptr),
         margin_(setting.half_width) {
+    const double sine = std::min(0.95, setting.cone / balls[own].radius),
+                 cosine = std::sqrt(1.0 - sine * sine);
     for (const int other : neighbours) {
       const GreyBall& ball = balls[other];
       const Vec3 to = ball.centre - centre_;
       const double distance = to.norm();
       const double gap = distance - ball.radius - balls[own].radius;
       const double reach = ball.radius + margin_;
-      bodies_.push_back(
-          {to, reach * reach, to / distance, gap < setting.cone_gap ? std::cos(setting.cone) : 2.0});
+      bodies_.push_back({to, reach * reach, to / distance, gap < setting.cone_gap ? cosine : 2.0});
     }
     if (container && free_of(*container, balls[own].radius + 2.0 * margin_)) container_ = nullptr;
   }
@@ -128,25 +129,29 @@ struct Equations {
 };
 
 /// A voxel's slopes with respect to the parameters, and what is left of its grey value.
-Eigen::Matrix<double, 8, 1> slopes_and_rest(const ShellVoxel& voxel, const Parameters& q) {
+Eigen::Matrix<double, 8, 1> slopes_and_rest(const ShellVoxel& voxel, const GreyBall& ball,
+                                            const Parameters& q) {
   const double dx = voxel.x - q[0], dy = voxel.y - q[1], dz = voxel.z - q[2];
   const double r = std::sqrt(dx * dx + dy * dy + dz * dz);
   const BallProfile profile = ball_profile(r, q[3], q[6]);
-  const double pull = -q[4] * profile.by_distance / r;
+  const Vec3 p(voxel.x, voxel.y, voxel.z);
+  const double contrast = q[4] + ball.contrast_slope.dot(p), background = q[5] + ball.background_slope.dot(p);
+  const double pull = -contrast * profile.by_distance / r;
   Eigen::Matrix<double, 8, 1> row;
-  row << pull * dx, pull * dy, pull * dz, q[4] * profile.by_radius, profile.value, 1.0,
-      q[4] * profile.by_blur, voxel.grey - q[5] - q[4] * profile.value;
+  row << pull * dx, pull * dy, pull * dz, contrast * profile.by_radius, profile.value, 1.0,
+      contrast * profile.by_blur, voxel.grey - background - contrast * profile.value;
   return row;
 }
 
-Equations equations(const std::vector<ShellVoxel>& voxels, const Parameters& q, bool fit_blur) {
+Equations equations(const std::vector<ShellVoxel>& voxels, const GreyBall& ball, const Parameters& q,
+                    bool fit_blur) {
   constexpr std::size_t block = 128;  // a product of matrices is quicker than one of vectors for each voxel
   Eigen::Matrix<double, 8, block> rows;
   Eigen::Matrix<double, 8, 8> sums = Eigen::Matrix<double, 8, 8>::Zero();
   for (std::size_t first = 0; first < voxels.size(); first += block) {
     const std::size_t count = std::min(block, voxels.size() - first);
     for (std::size_t k = 0; k < count; ++k)
-      rows.col(static_cast<Eigen::Index>(k)) = slopes_and_rest(voxels[first + k], q);
+      rows.col(static_cast<Eigen::Index>(k)) = slopes_and_rest(voxels[first + k], ball, q);
     const auto filled = rows.leftCols(static_cast<Eigen::Index>(count));
     sums.noalias() += filled * filled.transpose();
   }
@@ -178,7 +183,7 @@ BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::siz
 
   Parameters q;
   q << 0.0, 0.0, 0.0, start.radius, start.contrast, start.background, setting.blur;
-  Equations now = equations(shell.samples, q, setting.fit_blur);
+  Equations now = equations(shell.samples, start, q, setting.fit_blur);
   double damping = 1e-3;
   for (int iteration = 0; iteration < setting.iterations && !fit.converged && damping < 1e8; ++iteration) {
     Normal damped = now.matrix;
@@ -190,7 +195,7 @@ BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::siz
       continue;
     }
     fit.converged = step.head<4>().norm() < setting.tolerance;
-    const Equations then = equations(shell.samples, next, setting.fit_blur);
+    const Equations then = equations(shell.samples, start, next, setting.fit_blur);
     if (then.squares > now.squares) {
       damping *= 10.0;
       continue;
@@ -202,7 +207,13 @@ BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::siz
   const double n = static_cast<double>(shell.samples.size());
   const double variance = now.squares / (n - 6.0);
   const Normal covariance = now.matrix.ldlt().solve(Normal::Identity()) * variance;
-  fit.ball = {start.centre + q.head<3>(), q[3], q[4], q[5]};
+  const Vec3 shift = q.head<3>();
+  fit.ball = {start.centre + shift,
+              q[3],
+              q[4] + start.contrast_slope.dot(shift),
+              q[5] + start.background_slope.dot(shift),
+              start.contrast_slope,
+              start.background_slope};
   fit.blur = q[6];
   fit.sigma_centre = std::sqrt(covariance.diagonal().head<3>().sum() / 3.0);
   fit.sigma_radius = std::sqrt(covariance(3, 3));

@@ -15,6 +15,8 @@ struct GreyBall {
   double radius = 0.0;
   double contrast = 0.0;    ///< grey value inside minus outside; negative for dark beads
   double background = 0.0;  ///< grey value outside
+  Vec3 contrast_slope = Vec3::Zero(),
+       background_slope = Vec3::Zero();  ///< grey values per voxel at the centre
 };
 
 /// What the fit of one ball gave. Standard errors hold for noise that is independent from voxel to voxel.
@@ -33,7 +35,7 @@ struct FitSetting {
   double blur = 1.0;  ///< voxels; starting value if `fit_blur`
   bool fit_blur = false;
   double half_width = 3.0;  ///< of the shell, voxels
-  double cone = 0.56;       ///< half-angle, around the direction to each neighbour, left out; rad (32°)
+  double cone = 0.0;  ///< radius, on the ball's surface, of what is left out towards each neighbour, voxels
   double cone_gap =
       0.0;  ///< neighbours nearer than this (surface to surface, voxels) have a cone: there may be polymer
   int iterations = 20;      ///< most
@@ -42,9 +44,9 @@ struct FitSetting {
 };
 
 /// Fits ball `own` of `balls` to the grey values of its shell |r − R| < half_width by Levenberg–Marquardt:
-/// centre, radius, contrast, background and, if asked, blur, from where `balls` has them. Left out are the
-/// cones towards the other balls named by `neighbours`, voxels nearer than half_width to their surfaces, and
-/// voxels as near to the container.
+/// centre, radius, contrast, background and, if asked, blur, from where `balls` has them; slopes stay. Left
+/// out are the cones towards the other balls named by `neighbours`, voxels nearer than half_width to their
+/// surfaces, and voxels as near to the container.
 BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::size_t own,
                  std::span<const int> neighbours, const std::optional<Container>& container,
                  const FitSetting& setting);

@@ -7,12 +7,14 @@
 #include "base/interrupt.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "segmentation/level_field.h"
 
 namespace pendular {
 namespace {
 
 constexpr double least_contrast = 0.4;    // of the classes' difference
 constexpr double least_separation = 0.7;  // of two balls, over the sum of their radii
+constexpr double cone_share = 0.53;       // widest neck and its blur, over the typical bead: 32° of it
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -109,12 +111,13 @@ std::vector<BallFit> coarse_fits(const Volume& volume, const std::vector<GreyBal
   for (const GreyBall& ball : balls) radii.push_back(ball.radius);
   const double radius = median(radii);
   FitSetting setting;
-  setting.half_width = std::max(3.0, 0.3 * radius);
+  setting.half_width = std::max(std::min(3.0, 0.4 * radius), 0.3 * radius);
   setting.cone_gap = 2.0 * cutoff * radius + 2.0;
+  setting.cone = cone_share * radius;
   setting.stride = stride_for(radius, setting.half_width);
   setting.tolerance = 0.05;
   const auto first = fit_round(volume, balls, search.container, setting, "first fits");
-  setting.half_width = std::max(3.0, 0.2 * radius);
+  setting.half_width = std::max(std::min(3.0, 0.4 * radius), 0.2 * radius);
   setting.stride = stride_for(radius, setting.half_width);
   setting.fit_blur = true;
   auto fits = fit_round(volume, balls_of(first), search.container, setting, "first fits, with blur");
@@ -178,10 +181,13 @@ FittedBeads fit_beads(const Volume& volume, const BeadSearch& search, double cut
   result.blur = median(blurs);
   FitSetting setting;
   setting.blur = result.blur;
-  setting.half_width = std::max(2.0, 3.0 * result.blur);
+  setting.half_width = std::min(std::max(2.0, 3.0 * result.blur), 0.4 * median_radius(fits));
   setting.cone_gap = 2.0 * cutoff * median_radius(fits) + 0.5;
+  setting.cone = cone_share * median_radius(fits);
   const auto fit_again = [&](const char* name) {
-    fits = fit_round(volume, balls_of(fits), search.container, setting, name);
+    auto balls = balls_of(fits);
+    set_level_slopes(balls);
+    fits = fit_round(volume, balls, search.container, setting, name);
     reject(fits, volume, search);
   };
   setting.tolerance = 1e-3;

@@ -85,6 +85,7 @@ TEST(BallFit, NeighbourIsLeftOut) {
                                        {truth[1].centre, 10.0, 20000.0, 10000.0}};
   FitSetting setting;
   setting.cone_gap = 1.0;
+  setting.cone = 5.3;
   const std::vector<int> neighbour = {1};
   const BallFit alone = fit_ball(volume, balls, 0, {}, std::nullopt, setting);
   const BallFit masked = fit_ball(volume, balls, 0, neighbour, std::nullopt, setting);

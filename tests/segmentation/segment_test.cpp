@@ -65,6 +65,7 @@ std::vector<Bead> beads_of(const std::vector<test::TrueBall>& balls) {
 struct PhantomCase {
   const char* name;
   double voxel_um, noise, correlated_noise, contrast, centre_rms, bias;
+  double beam_hardening = 0.0;
 };
 
 void PrintTo(const PhantomCase& c, std::ostream* out) {
@@ -99,6 +100,7 @@ TEST_P(OnPhantom, FindsEveryBead) {
   sample.phantom.noise = c.noise;
   sample.phantom.correlated_noise = c.correlated_noise;
   sample.phantom.polymer_contrast = c.contrast;
+  sample.phantom.beam_hardening = c.beam_hardening;
   const Packing& packing = small_packing();
   const Volume volume = make_phantom(packing, sample.phantom, 1);
   const Segmentation found = segment(volume);
@@ -122,6 +124,7 @@ TEST_P(OnPhantom, FindsEveryBead) {
 
 INSTANTIATE_TEST_SUITE_P(Segment, OnPhantom,
                          testing::Values(PhantomCase{"Across40", 5.0, 0.1, 0.0, 0.3, 0.02, 0.02},
+                                         PhantomCase{"BeamHardening", 5.0, 0.1, 0.0, 0.3, 0.02, 0.02, 0.2},
                                          PhantomCase{"Across20", 10.0, 0.1, 0.0, 0.3, 0.04, 0.05},
                                          PhantomCase{"Noisy", 8.0, 0.3, 0.0, 0.3, 0.1, 0.1},
                                          PhantomCase{"CorrelatedNoise", 8.0, 0.05, 0.05, 0.3, 0.1, 0.1},
