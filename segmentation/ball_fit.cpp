@@ -78,7 +78,9 @@ class Hidden {
 template <typename T>
 Shell shell_of(std::span<const T> pixels, const Volume& volume, const GreyBall& ball, const Hidden& hidden,
                const FitSetting& setting) {
-  const double inner = std::max(0.5, ball.radius - setting.half_width),
+  constexpr double inwards =
+      3.0;  // at least: within the ball there is nothing else, and its level is to be seen
+  const double inner = std::max(0.5, ball.radius - std::max(inwards, setting.half_width)),
                outer = ball.radius + setting.half_width;
   std::array<long, 3> low, high;
   for (int axis = 0; axis < 3; ++axis) {

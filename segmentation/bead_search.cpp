@@ -9,7 +9,7 @@
 namespace pendular {
 namespace {
 
-constexpr double least_radius_in_nodes = 4.0;  // on a coarser grid than this, beads that touch run together
+constexpr double least_radius_in_nodes = 6.0;  // smaller beads that touch may have run together
 
 Grid<std::uint8_t> mask_of(const Grid<float>& grey, double threshold, bool bright) {
   Grid<std::uint8_t> mask{grey.size, grey.factor, std::vector<std::uint8_t>(grey.values.size())};
@@ -158,9 +158,12 @@ BeadSearch search_beads(const Volume& volume, const SearchSetting& setting, cons
     const Grid<float> smooth = reduced(volume, factor, smoothing);
     release(volume);
     stop_if_interrupted();
-    if (factor > 1) {
+    const bool had_container = search.container.has_value();
+    if (!had_container || factor > 1) {
       search.container = find_container(smooth);
       if (search.container) search.levels = levels_within(volume, *search.container);
+    }
+    if (factor > 1 || (search.container && !had_container)) {
       search.bright = setting.tone != BeadTone::dark;
       if (setting.tone == BeadTone::automatic) {
         const Part part = most_varied_part(smooth);

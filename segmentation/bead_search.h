@@ -34,7 +34,7 @@ struct SearchSetting {
 };
 
 /// Looks for beads on the volume reduced by a power of two, lightly smoothed against noise: as coarse as
-/// `most_nodes` asks, twofold at least, and finer where the typical bead is less than eight nodes across. The
+/// `most_nodes` asks, twofold at least, and finer where the typical bead is less than twelve nodes across. The
 /// tone, where it is automatic, is that of the class for which this product is greater: the share
 /// `balls_among` its bodies, and the share of its volume that their inscribed balls fill; judged where grey
 /// values vary most.
