@@ -6,7 +6,9 @@
 
 namespace pendular {
 
-/// A file's bytes as memory that the system fills as they are touched and takes back when it runs short.
+/// A file's bytes as memory that the system fills as they are touched and takes back when it runs short. If
+/// they cannot be read then, because the file was cut short or its disc fails, the program ends with status 4
+/// and one line.
 class MappedFile {
  public:
   /// BadInput if the file cannot be read.

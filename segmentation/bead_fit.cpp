@@ -52,11 +52,6 @@ std::vector<BallFit> fit_round(const Volume& volume, const std::vector<GreyBall>
   return fits;
 }
 
-bool outside(const Container& container, const Vec3& p) {
-  return std::hypot(p.x() - container.axis_x, p.y() - container.axis_y) > container.radius ||
-         (container.bottom && p.z() < *container.bottom) || (container.top && p.z() > *container.top);
-}
-
 bool outside(const Volume& volume, const Vec3& p) {
   for (int axis = 0; axis < 3; ++axis)
     if (p[axis] < -0.5 || p[axis] > static_cast<double>(volume.size[static_cast<std::size_t>(axis)]) - 0.5)
@@ -71,7 +66,7 @@ void reject(std::vector<BallFit>& fits, const Volume& volume, const BeadSearch& 
   std::erase_if(fits, [&](const BallFit& fit) {
     return !fit.converged || fit.ball.contrast / needed < 1.0 || fit.ball.radius < search.least_radius ||
            outside(volume, fit.ball.centre) ||
-           (search.container && outside(*search.container, fit.ball.centre));
+           (search.container && !within(*search.container, fit.ball.centre));
   });
   std::vector<bool> dropped(fits.size(), false);
   for (const auto& [a, b] : near_balls(balls_of(fits), 0.0)) {

@@ -19,12 +19,6 @@ Grid<std::uint8_t> mask_of(const Grid<float>& grey, double threshold, bool brigh
   return mask;
 }
 
-bool within(const Container& container, const Vec3& p) {
-  const double x = p.x() - container.axis_x, y = p.y() - container.axis_y;
-  return x * x + y * y < container.radius * container.radius &&
-         (!container.bottom || p.z() > *container.bottom) && (!container.top || p.z() < *container.top);
-}
-
 /// Of the voxels within the container, where neither its walls nor the air around it count; of some millions
 /// of them, on every so many rows and slices.
 GreyLevels levels_within(const Volume& volume, const Container& container) {
@@ -69,8 +63,9 @@ double inscribed_share(const BeadSearch& search) {
   return nodes > 0.0 ? balls / (nodes * std::pow(factor, 3)) : 0.0;
 }
 
-/// The smallest power of two, from two on, that leaves at most so many nodes.
-std::size_t first_factor(const Volume& volume, std::size_t most_nodes) {
+/// The smallest power of two, from two on, that leaves at most 2²⁸ nodes.
+std::size_t first_factor(const Volume& volume) {
+  constexpr std::size_t most_nodes = std::size_t{1} << 28;
   std::size_t factor = 2;
   while (volume.voxels() / (factor * factor * factor) > most_nodes) factor *= 2;
   return factor;
@@ -91,14 +86,12 @@ std::vector<std::size_t> box_starts(std::size_t size, std::size_t edge) {
 }
 
 /// Of a box's nodes, some thousands looked at.
-double variance_within(const Grid<float>& grey, const std::array<std::size_t, 3>& first, std::size_t edge) {
+double variance_within(const Grid<float>& grey, const Box& box) {
   constexpr std::size_t step = 8;
   double n = 0.0, sum = 0.0, squares = 0.0;
-  std::array<std::size_t, 3> last;
-  for (std::size_t axis = 0; axis < 3; ++axis) last[axis] = std::min(grey.size[axis], first[axis] + edge);
-  for (std::size_t k = first[2]; k < last[2]; k += step)
-    for (std::size_t j = first[1]; j < last[1]; j += step)
-      for (std::size_t i = first[0]; i < last[0]; i += step) {
+  for (std::size_t k = box.low[2]; k < box.high[2]; k += step)
+    for (std::size_t j = box.low[1]; j < box.high[1]; j += step)
+      for (std::size_t i = box.low[0]; i < box.high[0]; i += step) {
         const double value = grey.values[grey.index(i, j, k)];
         n += 1.0, sum += value, squares += value * value;
       }
@@ -108,24 +101,20 @@ double variance_within(const Grid<float>& grey, const std::array<std::size_t, 3>
 /// The box of at most 256³ nodes in which grey values vary most: where the beads are.
 Part most_varied_part(const Grid<float>& grey) {
   constexpr std::size_t edge = 256;
-  std::array<std::size_t, 3> best{};
+  Box best;
   double greatest = -1.0;
   for (const std::size_t k : box_starts(grey.size[2], edge))
     for (const std::size_t j : box_starts(grey.size[1], edge))
-      for (const std::size_t i : box_starts(grey.size[0], edge))
-        if (const double variance = variance_within(grey, {i, j, k}, edge); variance > greatest)
-          best = {i, j, k}, greatest = variance;
-  Part part{{{}, grey.factor, {}}, {}};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    part.grey.size[axis] = std::min(edge, grey.size[axis]);
-    part.first[static_cast<Eigen::Index>(axis)] = static_cast<double>(best[axis] * grey.factor);
-  }
-  for (std::size_t k = best[2]; k < best[2] + part.grey.size[2]; ++k)
-    for (std::size_t j = best[1]; j < best[1] + part.grey.size[1]; ++j) {
-      const auto row = grey.values.begin() + static_cast<std::ptrdiff_t>(grey.index(best[0], j, k));
-      part.grey.values.insert(part.grey.values.end(), row,
-                              row + static_cast<std::ptrdiff_t>(part.grey.size[0]));
-    }
+      for (const std::size_t i : box_starts(grey.size[0], edge)) {
+        Box box{{i, j, k}, {}};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          box.high[axis] = std::min(grey.size[axis], box.low[axis] + edge);
+        if (const double variance = variance_within(grey, box); variance > greatest)
+          best = box, greatest = variance;
+      }
+  Part part{part_of(grey, best), {}};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    part.first[static_cast<Eigen::Index>(axis)] = static_cast<double>(best.low[axis] * grey.factor);
   return part;
 }
 
@@ -147,14 +136,15 @@ double likeness(BeadSearch trial, const Part& part, bool bright, const BallShare
 
 }  // namespace
 
-BeadSearch search_beads(const Volume& volume, const SearchSetting& setting, const BallShare& balls_among) {
+BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<double> least_radius,
+                        const BallShare& balls_among) {
   constexpr double least_share = 0.4, smoothing = 0.7;
   BeadSearch search;
   search.levels = grey_levels(histogram_of(volume));
   release(volume);
   stop_if_interrupted();
   double typical = 0.0;
-  for (std::size_t factor = first_factor(volume, setting.most_nodes);; factor /= 2) {
+  for (std::size_t factor = first_factor(volume);; factor /= 2) {
     const Grid<float> smooth = reduced(volume, factor, smoothing);
     release(volume);
     stop_if_interrupted();
@@ -164,8 +154,8 @@ BeadSearch search_beads(const Volume& volume, const SearchSetting& setting, cons
       if (search.container) search.levels = levels_within(volume, *search.container);
     }
     if (factor > 1 || (search.container && !had_container)) {
-      search.bright = setting.tone != BeadTone::dark;
-      if (setting.tone == BeadTone::automatic) {
+      search.bright = tone != BeadTone::dark;
+      if (tone == BeadTone::automatic) {
         const Part part = most_varied_part(smooth);
         search.bright =
             likeness(search, part, true, balls_among) >= likeness(search, part, false, balls_among);
@@ -175,7 +165,7 @@ BeadSearch search_beads(const Volume& volume, const SearchSetting& setting, cons
     typical = typical_radius(search.seeds);
     if (factor == 1 || typical >= least_radius_in_nodes * static_cast<double>(factor)) break;
   }
-  search.least_radius = setting.least_radius.value_or(least_share * typical);
+  search.least_radius = least_radius.value_or(least_share * typical);
   std::erase_if(search.seeds, [&](const Seed& seed) { return seed.radius < search.least_radius; });
   return search;
 }

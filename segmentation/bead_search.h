@@ -26,19 +26,14 @@ struct BeadSearch {
 /// Share of a search's seeds, or of a sample of them, that have a ball's edge.
 using BallShare = std::function<double(const BeadSearch&)>;
 
-/// How beads are looked for.
-struct SearchSetting {
-  BeadTone tone = BeadTone::automatic;
-  std::optional<double> least_radius;             ///< voxels; none: 0.4 of the typical one
-  std::size_t most_nodes = std::size_t{1} << 28;  ///< of the grid to begin with
-};
-
-/// Looks for beads on the volume reduced by a power of two, lightly smoothed against noise: as coarse as
-/// `most_nodes` asks, twofold at least, and finer where the typical bead is less than twelve nodes across. The
-/// tone, where it is automatic, is that of the class for which this product is greater: the share
+/// Looks for beads on the volume reduced by a power of two, lightly smoothed against noise: twofold, more
+/// where that leaves more than 2²⁸ nodes, and finer where the typical bead is less than twelve nodes across.
+/// The tone, where it is automatic, is that of the class for which this product is greater: the share
 /// `balls_among` its bodies, and the share of its volume that their inscribed balls fill; judged where grey
 /// values vary most.
-BeadSearch search_beads(const Volume& volume, const SearchSetting& setting, const BallShare& balls_among);
+/// `least_radius` (voxels): leave out what is smaller; without it, what is below 0.4 of the typical radius.
+BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<double> least_radius,
+                        const BallShare& balls_among);
 
 /// Seeds in what the balls leave of the mask, at least `least_radius` voxels in radius: beads that were
 /// missed.

@@ -249,17 +249,17 @@ std::optional<Container> find_container(const Grid<float>& grey) {
   return container;
 }
 
+bool within(const Container& container, const Vec3& p) {
+  const double x = p.x() - container.axis_x, y = p.y() - container.axis_y;
+  return x * x + y * y < container.radius * container.radius &&
+         (!container.bottom || p.z() > *container.bottom) && (!container.top || p.z() < *container.top);
+}
+
 void clear_outside(Grid<std::uint8_t>& mask, const Container& container) {
   for_blocks(mask.size[2], 1, [&](std::size_t k, std::size_t) {
     for (std::size_t j = 0; j < mask.size[1]; ++j)
-      for (std::size_t i = 0; i < mask.size[0]; ++i) {
-        const Vec3 p = mask.at(i, j, k);
-        const double x = p.x() - container.axis_x, y = p.y() - container.axis_y;
-        const bool within = x * x + y * y < container.radius * container.radius &&
-                            (!container.bottom || p.z() > *container.bottom) &&
-                            (!container.top || p.z() < *container.top);
-        if (!within) mask.values[mask.index(i, j, k)] = 0;
-      }
+      for (std::size_t i = 0; i < mask.size[0]; ++i)
+        if (!within(container, mask.at(i, j, k))) mask.values[mask.index(i, j, k)] = 0;
   });
 }
 

@@ -19,6 +19,9 @@ struct Container {
 /// on all sides.
 std::optional<Container> find_container(const Grid<float>& grey);
 
+/// Whether a point lies inside the tube and between the pistons.
+bool within(const Container& container, const Vec3& p);
+
 /// Clears the mask outside the tube and beyond the pistons.
 void clear_outside(Grid<std::uint8_t>& mask, const Container& container);
 

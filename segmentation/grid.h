@@ -28,6 +28,25 @@ struct Grid {
   }
 };
 
+/// A part of a grid: nodes from `low` to below `high`.
+struct Box {
+  std::array<std::size_t, 3> low{}, high{};
+};
+
+/// That part as a grid of its own, its first node at what `low` is in the whole.
+template <typename T>
+Grid<T> part_of(const Grid<T>& grid, const Box& box) {
+  Grid<T> part{{}, grid.factor, {}};
+  for (std::size_t axis = 0; axis < 3; ++axis) part.size[axis] = box.high[axis] - box.low[axis];
+  part.values.reserve(part.size[0] * part.size[1] * part.size[2]);
+  for (std::size_t k = box.low[2]; k < box.high[2]; ++k)
+    for (std::size_t j = box.low[1]; j < box.high[1]; ++j) {
+      const auto row = grid.values.begin() + static_cast<std::ptrdiff_t>(grid.index(box.low[0], j, k));
+      part.values.insert(part.values.end(), row, row + static_cast<std::ptrdiff_t>(part.size[0]));
+    }
+  return part;
+}
+
 /// Means over blocks of factor³ voxels, convolved with a Gaussian of standard deviation `sd` nodes (ITK's
 /// recursive one), edges continued. What is left over at the far ends is dropped; a grid of less than four
 /// nodes along an axis is not convolved.

@@ -136,7 +136,6 @@ Volume read_raw(const fs::path& path, const ReadOptions& options) {
   if (static_cast<double>(size) != expected)
     bad_input("{}: found {} bytes, expected {:.0f} for {} x {} x {} voxels of {}", path.string(), size,
               expected, volume.size[0], volume.size[1], volume.size[2], options.raw_type);
-  if (size == 0) bad_input("{}: found an empty file, expected voxels", path.string());
   place(volume, nullptr, path, options);
   map_pixels(volume, {path, 0});
   return volume;

@@ -12,11 +12,6 @@
 namespace pendular {
 namespace {
 
-/// A part of a grid: nodes from `low` to below `high`.
-struct Box {
-  std::array<std::size_t, 3> low{}, high{};
-};
-
 /// Sets nodes to zero but those with `reach` nodes of the mask on either side along one line of it; beyond
 /// its ends there may be anything.
 void erode_line(std::uint8_t* first, std::size_t count, std::size_t stride, std::size_t reach) {
@@ -76,17 +71,6 @@ Box widened(Box box, std::size_t margin, const std::array<std::size_t, 3>& size)
     box.high[axis] = std::min(size[axis], box.high[axis] + margin);
   }
   return box;
-}
-
-Grid<std::uint8_t> part_of(const Grid<std::uint8_t>& mask, const Box& box) {
-  Grid<std::uint8_t> part{{}, mask.factor, {}};
-  for (std::size_t axis = 0; axis < 3; ++axis) part.size[axis] = box.high[axis] - box.low[axis];
-  for (std::size_t k = box.low[2]; k < box.high[2]; ++k)
-    for (std::size_t j = box.low[1]; j < box.high[1]; ++j) {
-      const auto row = mask.values.begin() + static_cast<std::ptrdiff_t>(mask.index(box.low[0], j, k));
-      part.values.insert(part.values.end(), row, row + static_cast<std::ptrdiff_t>(part.size[0]));
-    }
-  return part;
 }
 
 /// A node of the mask and its distance to the mask's surface, in nodes.

@@ -121,10 +121,11 @@ Segmentation segment(const Volume& volume, const SegmentOptions& options) {
       bad_input("volume of {} x {} x {} voxels, expected at least 16 along each axis", volume.size[0],
                 volume.size[1], volume.size[2]);
   Segmentation result;
-  SearchSetting setting{options.tone, std::nullopt, options.most_nodes};
-  if (options.least_diameter) setting.least_radius = 0.5 * *options.least_diameter / volume.spacing;
-  const BeadSearch search = search_beads(
-      volume, setting, [&](const BeadSearch& tried) { return ball_share(volume, tried, options.cutoff); });
+  std::optional<double> least_radius;
+  if (options.least_diameter) least_radius = 0.5 * *options.least_diameter / volume.spacing;
+  const BeadSearch search = search_beads(volume, options.tone, least_radius, [&](const BeadSearch& tried) {
+    return ball_share(volume, tried, options.cutoff);
+  });
   FittedBeads fitted = fit_beads(volume, search, options.cutoff);
   if (fitted.fits.empty())
     bad_input(

@@ -16,7 +16,6 @@ struct SegmentOptions {
   BeadTone tone = BeadTone::automatic;   ///< of the beads against what surrounds them
   std::optional<double> least_diameter;  ///< m; none: 0.4 of the typical one
   std::optional<BridgeOptions> bridges;  ///< look for polymer between candidates
-  std::size_t most_nodes = SearchSetting().most_nodes;  ///< of the grid on which beads are looked for first
 };
 
 /// A tomogram taken apart. Lengths in m, positions in the volume's own frame.

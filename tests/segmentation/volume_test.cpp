@@ -114,6 +114,16 @@ TEST(Volume, VoxelsThatAreNotCubicBecomeSo) {
   EXPECT_EQ(read_volume(folder / "a.mha", options).size, volume.size);
 }
 
+TEST(Volume, AFileCutShortWhileInUseEndsTheProgramWithOneLine) {
+  const ScratchFolder folder;
+  Volume volume{{64, 64, 64}, 2e-6, Vec3::Zero(), std::vector<std::uint16_t>(64 * 64 * 64, 7)};
+  std::get<std::vector<std::uint16_t>>(volume.pixels)[0] = 8;
+  write_volume(folder / "a.mha", volume);
+  const Volume read = read_volume(folder / "a.mha");
+  fs::resize_file(folder / "a.mha", 100);
+  EXPECT_EXIT(bytes_of(read), testing::ExitedWithCode(4), "^pendular: an input file was cut short.*\n$");
+}
+
 std::string pcr(const std::string& format, const std::string& voxel = "0.0025") {
   return "[ImageData]\nPCA_File=D:\\scan\\beads.pca\n[VolumeData]\nVOL_File=D:\\scan\\beads_rec.vol\n"
          "VoxelSizeRec=" +
