@@ -98,13 +98,16 @@ class Planner {
     }
     int turn = 0;
     for (const auto& effect : effects::all_effects()) {
-      if (options_.leave_out.contains(effect.id)) {
-        plan_.absent[effect.id] = "left out as asked";
-      } else if (const std::string why = why_inert(effect, plan_.conditions); !why.empty()) {
-        plan_.absent[effect.id] = why;
+      // What is left out keeps its turns, so that the other runs are those of the whole library.
+      const bool left_out = options_.leave_out.contains(effect.id);
+      if (left_out) plan_.absent[effect.id] = "left out as asked";
+      if (const std::string why = why_inert(effect, plan_.conditions); !why.empty()) {
+        plan_.absent.emplace(effect.id, why);
       } else if (!reads_only(effect)) {
-        for (double theta : magnitudes_of(effect, options_.levels, experiment_))
-          add({1 + turn++ % members, effect.id, theta, !scaled_});
+        for (double theta : magnitudes_of(effect, options_.levels, experiment_)) {
+          const int member = 1 + turn++ % members;
+          if (!left_out) add({member, effect.id, theta, !scaled_});
+        }
         ++turn;
       }
     }

@@ -56,7 +56,8 @@ struct BankPlan {
 /// errors that the tables of beads show by themselves at thirds of one and a half of that) and
 /// each believed input at two standard deviations to both sides, on members in turn. Specimens of more than
 /// 2,000 beads that were not measured get a smaller one of the same shape, beside baselines of their own
-/// size. Effects that only change what instruments read need no runs.
+/// size. Effects that only change what instruments read need no runs. Leaving an effect out changes no other
+/// run.
 BankPlan plan_bank(const Experiment& experiment, const BankOptions& options, const fs::path& beads_folder);
 
 /// The run of one condition with some changes, its specimen of the observed size times `size`.

@@ -48,6 +48,18 @@ TEST(Bank, LeavesOutWhatItIsAsked) {
   EXPECT_TRUE(plan.absent.contains("missing_bridges"));
 }
 
+TEST(Bank, WithoutAnEffectHasTheOtherRunsOfTheWholeLibrary) {
+  const BankPlan all = plan_bank(one_compression(), {}, "beads");
+  std::set<std::string> others;
+  for (std::size_t k = 0; k < all.requests.size(); ++k)
+    if (all.points[all.runs[k].point].id != "missing_bridges")
+      others.insert(sweep::content_hash(all.requests[k]));
+  std::set<std::string> found;
+  for (const auto& request : plan_bank(one_compression(), {3, {"missing_bridges"}}, "beads").requests)
+    found.insert(sweep::content_hash(request));
+  EXPECT_EQ(found, others);
+}
+
 TEST(Bank, LargeSpecimensLearnOnSmallerOnesOfTheSameShape) {
   Experiment experiment = one_compression();
   experiment.sample.specimen.diameter = 4.25e-3, experiment.sample.specimen.height = 4.05e-3;
