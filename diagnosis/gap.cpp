@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/median.h"
 #include "base/random.h"
 
 namespace pendular::diagnosis {
@@ -30,13 +31,6 @@ double threshold_of(const Eigen::MatrixXd& covariance) {
   const auto at = largest.begin() + static_cast<std::ptrdiff_t>(0.95 * kDraws);
   std::nth_element(largest.begin(), at, largest.end());
   return *at;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/median.h"
 #include "segmentation/ball_profile.h"
 
 namespace pendular {
@@ -170,6 +171,76 @@ bool plausible(const Parameters& q, double radius, double contrast) {
          q[6] > 0.1 && q[6] < 0.5 * radius && std::abs(q[4]) < 3.0 * std::abs(contrast);
 }
 
+struct Solution {
+  Parameters q;
+  Equations equations;
+  bool converged = false;
+};
+
+Solution solved(const std::vector<ShellVoxel>& voxels, const GreyBall& start, const Parameters& from,
+                const FitSetting& setting) {
+  Solution now{from, equations(voxels, start, from, setting.fit_blur)};
+  double damping = 1e-3;
+  for (int iteration = 0; iteration < setting.iterations && !now.converged && damping < 1e8; ++iteration) {
+    Normal damped = now.equations.matrix;
+    damped.diagonal() *= 1.0 + damping;
+    const Parameters step = damped.ldlt().solve(now.equations.right);
+    const Parameters next = now.q + step;
+    if (!plausible(next, start.radius, start.contrast)) {
+      damping *= 10.0;
+      continue;
+    }
+    now.converged = step.head<4>().norm() < setting.tolerance;
+    const Equations then = equations(voxels, start, next, setting.fit_blur);
+    if (then.squares > now.equations.squares) {
+      damping *= 10.0;
+      continue;
+    }
+    now.q = next;
+    now.equations = then;
+    damping *= 0.1;
+  }
+  return now;
+}
+
+constexpr std::size_t patches_along = 4, patches = 6 * patches_along * patches_along;
+
+/// Of the sphere's patches, squares on the faces of a cube about it, the one in a direction.
+std::size_t patch_of(const Vec3& p) {
+  Eigen::Index axis;
+  const double most = p.cwiseAbs().maxCoeff(&axis);
+  const auto place = [&](double along) {
+    const double share = 0.5 + 2.0 / M_PI * std::atan(along / most);
+    return std::min(patches_along - 1, static_cast<std::size_t>(share * patches_along));
+  };
+  const auto face = static_cast<std::size_t>(2 * axis + (p[axis] > 0.0 ? 1 : 0));
+  return (face * patches_along + place(p[(axis + 1) % 3])) * patches_along + place(p[(axis + 2) % 3]);
+}
+
+/// Drops the voxels of patches in which the mean of what is left, within the ball or around it, is further
+/// from zero than means of patches are: something that is not known is there. Whether there were any.
+bool drop_foreign(std::vector<ShellVoxel>& voxels, const GreyBall& start, const Parameters& q) {
+  constexpr double far = 4.5, to_sd = 1.4826;
+  std::array<double, 2 * patches> sum{}, count{};
+  const auto cell_of = [&](const ShellVoxel& voxel) {
+    const Vec3 p(voxel.x - q[0], voxel.y - q[1], voxel.z - q[2]);
+    return 2 * patch_of(p) + (p.norm() > q[3] ? 1 : 0);
+  };
+  for (const ShellVoxel& voxel : voxels) {
+    const std::size_t cell = cell_of(voxel);
+    sum[cell] += slopes_and_rest(voxel, start, q)[7];
+    count[cell] += 1.0;
+  }
+  std::vector<double> scores;
+  for (std::size_t cell = 0; cell < sum.size(); ++cell)
+    if (count[cell] > 0.0) scores.push_back(std::abs(sum[cell]) / std::sqrt(count[cell]));
+  const double most = far * to_sd * median(scores);
+  std::array<bool, patches> foreign{};
+  for (std::size_t cell = 0; cell < sum.size(); ++cell)
+    if (count[cell] > 0.0 && std::abs(sum[cell]) / std::sqrt(count[cell]) > most) foreign[cell / 2] = true;
+  return std::erase_if(voxels, [&](const ShellVoxel& voxel) { return foreign[cell_of(voxel) / 2]; }) > 0;
+}
+
 }  // namespace
 
 BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::size_t own,
@@ -177,35 +248,25 @@ BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::siz
                  const FitSetting& setting) {
   const GreyBall& start = balls[own];
   const Hidden hidden(balls, own, neighbours, container, setting);
-  const Shell shell =
+  Shell shell =
       with_pixels(volume, [&](auto pixels) { return shell_of(pixels, volume, start, hidden, setting); });
-  BallFit fit{start, setting.blur, 0.0, 0.0, 0.0, shell.free_share, false};
+  BallFit fit{start, setting.blur, 0.0, 0.0, 0.0, shell.free_share, 1.0, false};
   constexpr std::size_t least_samples = 50;
   if (shell.samples.size() < least_samples) return fit;
 
-  Parameters q;
-  q << 0.0, 0.0, 0.0, start.radius, start.contrast, start.background, setting.blur;
-  Equations now = equations(shell.samples, start, q, setting.fit_blur);
-  double damping = 1e-3;
-  for (int iteration = 0; iteration < setting.iterations && !fit.converged && damping < 1e8; ++iteration) {
-    Normal damped = now.matrix;
-    damped.diagonal() *= 1.0 + damping;
-    const Parameters step = damped.ldlt().solve(now.right);
-    const Parameters next = q + step;
-    if (!plausible(next, start.radius, start.contrast)) {
-      damping *= 10.0;
-      continue;
-    }
-    fit.converged = step.head<4>().norm() < setting.tolerance;
-    const Equations then = equations(shell.samples, start, next, setting.fit_blur);
-    if (then.squares > now.squares) {
-      damping *= 10.0;
-      continue;
-    }
-    q = next;
-    now = then;
-    damping *= 0.1;
+  Parameters from;
+  from << 0.0, 0.0, 0.0, start.radius, start.contrast, start.background, setting.blur;
+  Solution solution = solved(shell.samples, start, from, setting);
+  const double all = static_cast<double>(shell.samples.size());
+  constexpr int most_turns = 3;
+  for (int turn = 0; setting.drop_foreign && turn < most_turns; ++turn) {
+    if (!drop_foreign(shell.samples, start, solution.q)) break;
+    if (shell.samples.size() < least_samples) return fit;
+    solution = solved(shell.samples, start, solution.q, setting);
   }
+  const auto& [q, now, converged] = solution;
+  fit.converged = converged;
+  fit.borne_out = static_cast<double>(shell.samples.size()) / all;
   const double n = static_cast<double>(shell.samples.size());
   const double variance = now.squares / (n - 6.0);
   const Normal covariance = now.matrix.ldlt().solve(Normal::Identity()) * variance;

@@ -27,6 +27,7 @@ struct BallFit {
          sigma_radius = 0.0;  ///< standard errors (of the centre: root mean square over the axes), voxels
   double residual = 0.0;      ///< root mean square over the voxels used, grey values
   double free_share = 0.0;    ///< share of the shell that is neither hidden nor outside the volume
+  double borne_out = 1.0;     ///< share of that which was not dropped as foreign
   bool converged = false;
 };
 
@@ -38,15 +39,19 @@ struct FitSetting {
   double cone = 0.0;  ///< radius, on the ball's surface, of what is left out towards each neighbour, voxels
   double cone_gap =
       0.0;  ///< neighbours nearer than this (surface to surface, voxels) have a cone: there may be polymer
-  int iterations = 20;      ///< most
-  std::size_t stride = 1;   ///< of the voxels used, every so many
-  double tolerance = 1e-4;  ///< step of centre and radius below which the fit has converged, voxels
+  bool drop_foreign = false;  ///< leave out directions that a blurred ball does not explain, too
+  int iterations = 20;        ///< most
+  std::size_t stride = 1;     ///< of the voxels used, every so many
+  double tolerance = 1e-4;    ///< step of centre and radius below which the fit has converged, voxels
 };
 
 /// Fits ball `own` of `balls` to the grey values of its shell |r − R| < half_width by Levenberg–Marquardt:
 /// centre, radius, contrast, background and, if asked, blur, from where `balls` has them; slopes stay. Left
 /// out are the cones towards the other balls named by `neighbours`, voxels nearer than half_width to their
-/// surfaces, and voxels as near to the container.
+/// surfaces, and voxels as near to the container; with `drop_foreign` also the 96ths of the sphere in which
+/// the mean residual, within the ball or around it, is more than 4.5 times what such means usually are: there
+/// is something that nobody told of, as a wall, polymer, a pore, or a bead whose centre is not in the
+/// picture.
 BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::size_t own,
                  std::span<const int> neighbours, const std::optional<Container>& container,
                  const FitSetting& setting);

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/interrupt.h"
+#include "base/median.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "segmentation/level_field.h"
@@ -13,15 +14,10 @@ namespace pendular {
 namespace {
 
 constexpr double least_contrast = 0.4;    // of the classes' difference
+constexpr double most_misfit = 0.15;      // of the contrast, beside the noise
+constexpr double least_borne_out = 0.4;   // of what is seen of a ball's shell
 constexpr double least_separation = 0.7;  // of two balls, over the sum of their radii
 constexpr double cone_share = 0.53;       // widest neck and its blur, over the typical bead: 32° of it
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double median_radius(const std::vector<BallFit>& fits) {
   std::vector<double> radii;
@@ -64,8 +60,8 @@ void reject(std::vector<BallFit>& fits, const Volume& volume, const BeadSearch& 
   const double needed =
       least_contrast * (search.levels.bright - search.levels.dark) * (search.bright ? 1.0 : -1.0);
   std::erase_if(fits, [&](const BallFit& fit) {
-    return !fit.converged || fit.ball.contrast / needed < 1.0 || fit.ball.radius < search.least_radius ||
-           outside(volume, fit.ball.centre) ||
+    return !fit.converged || fit.borne_out < least_borne_out || fit.ball.contrast / needed < 1.0 ||
+           fit.ball.radius < search.least_radius || outside(volume, fit.ball.centre) ||
            (search.container && !within(*search.container, fit.ball.centre));
   });
   std::vector<bool> dropped(fits.size(), false);
@@ -81,6 +77,14 @@ void reject(std::vector<BallFit>& fits, const Volume& volume, const BeadSearch& 
   for (std::size_t n = 0; n < fits.size(); ++n)
     if (!dropped[n]) fits[kept++] = fits[n];
   fits.resize(kept);
+}
+
+/// Drops the few among balls that fit far worse, as broken ones do; grains that are all irregular stay.
+void leave_out_odd(std::vector<BallFit>& fits, double noise) {
+  const auto odd = [noise](const BallFit& fit) {
+    return fit.residual > std::hypot(noise, most_misfit * fit.ball.contrast);
+  };
+  if (2 * std::count_if(fits.begin(), fits.end(), odd) < std::ssize(fits)) std::erase_if(fits, odd);
 }
 
 std::vector<GreyBall> balls_at(const std::vector<Seed>& seeds, const BeadSearch& search) {
@@ -160,10 +164,16 @@ FittedBeads fit_beads(const Volume& volume, const BeadSearch& search, double cut
   FittedBeads result;
   std::vector<BallFit> fits = coarse_fits(volume, balls_at(search.seeds, search), search, cutoff);
   std::size_t tried = search.seeds.size();
-  const auto missed =
-      search_missed(search.mask, seeds_at(fits), std::max(search.least_radius, 0.5 * median_radius(fits)));
-  if (!missed.empty()) {
-    tried += missed.size();
+  // A pore keeps the ball that fits into a bead far smaller than the bead, so what is missed again is taken
+  // to be of the usual size.
+  for (const bool usual_size : {false, true}) {
+    const double usual = median_radius(fits);
+    auto missed = search_missed(search.mask, seeds_at(fits), std::max(search.least_radius, 0.5 * usual));
+    if (missed.empty()) break;
+    if (usual_size)
+      for (Seed& seed : missed) seed.radius = usual;
+    else
+      tried += missed.size();
     auto balls = balls_of(fits);
     const auto more = balls_at(missed, search);
     balls.insert(balls.end(), more.begin(), more.end());
@@ -185,6 +195,7 @@ FittedBeads fit_beads(const Volume& volume, const BeadSearch& search, double cut
     fits = fit_round(volume, balls, search.container, setting, name);
     reject(fits, volume, search);
   };
+  setting.drop_foreign = true;
   setting.tolerance = 1e-3;
   setting.stride = stride_for(median_radius(fits), setting.half_width);
   fit_again("second fits");
@@ -192,6 +203,7 @@ FittedBeads fit_beads(const Volume& volume, const BeadSearch& search, double cut
   setting.stride = 1;
   fit_again("last fits");
   result.noise = measure_noise(volume, balls_of(fits), setting.half_width);
+  leave_out_odd(fits, result.noise.sd);
   result.grains = search_missed(search.mask, seeds_at(fits), search.least_radius);
   result.fits = std::move(fits);
   result.rejected = tried - result.fits.size();

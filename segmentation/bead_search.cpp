@@ -5,6 +5,7 @@
 
 #include "base/interrupt.h"
 #include "base/parallel.h"
+#include "segmentation/field_of_view.h"
 
 namespace pendular {
 namespace {
@@ -140,12 +141,16 @@ BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<doubl
                         const BallShare& balls_among) {
   constexpr double least_share = 0.4, smoothing = 0.7;
   BeadSearch search;
-  search.levels = grey_levels(histogram_of(volume));
+  const auto view = field_of_view(volume);
+  search.histogram = histogram_of(volume);
+  if (view) leave_out(search.histogram, *view);
+  search.levels = grey_levels(search.histogram);
   release(volume);
   stop_if_interrupted();
   double typical = 0.0;
   for (std::size_t factor = first_factor(volume);; factor /= 2) {
-    const Grid<float> smooth = reduced(volume, factor, smoothing);
+    Grid<float> smooth = reduced(volume, factor, smoothing);
+    if (view) fill_beyond(smooth, *view);
     release(volume);
     stop_if_interrupted();
     const bool had_container = search.container.has_value();

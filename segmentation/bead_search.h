@@ -15,6 +15,7 @@ enum class BeadTone { automatic, bright, dark };
 
 /// Where beads may be, and what was found on the way.
 struct BeadSearch {
+  Histogram histogram;      ///< of all voxels but those beyond the reconstruction's field of view
   GreyLevels levels;        ///< within the container, where there is one
   Grid<std::uint8_t> mask;  ///< 1: bead material, within the container
   std::vector<Seed> seeds;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/median.h"
 #include "base/parallel.h"
 #include "segmentation/ball_profile.h"
 
@@ -86,9 +87,15 @@ Noise measure_noise(const Volume& volume, std::span<const GreyBall> balls, doubl
       sums[n] = core_sums(pixels, volume, balls[n * step], margin);
     });
   });
+  // Pores and cracks are not noise: cores that vary by more than twice the middle one do not count.
+  constexpr double uneven = 2.0;
+  std::vector<double> variances;
+  for (const LagSums& own : sums)
+    if (own.pairs[0] > 0.0) variances.push_back(own.product[0] / own.pairs[0]);
+  const double most = uneven * median(variances);
   LagSums total;
   for (const LagSums& own : sums)
-    for (int lag = 0; lag <= most_lag; ++lag) {
+    for (int lag = 0; lag <= most_lag && own.product[0] <= most * own.pairs[0]; ++lag) {
       total.product[lag] += own.product[lag];
       total.pairs[lag] += own.pairs[lag];
     }

@@ -6,10 +6,12 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/median.h"
 #include "base/parallel.h"
 #include "packing/bridges.h"
 #include "packing/statistics.h"
 #include "segmentation/bead_fit.h"
+#include "segmentation/doubts.h"
 #include "segmentation/rows.h"
 
 namespace pendular {
@@ -34,8 +36,7 @@ void sort_fits(std::vector<BallFit>& fits) {
 std::vector<Bead> beads_of(const Volume& volume, const FittedBeads& fitted) {
   std::vector<double> radii;
   for (const BallFit& fit : fitted.fits) radii.push_back(fit.ball.radius);
-  std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2), radii.end());
-  const VarianceInflation inflation = variance_inflation(fitted.noise, radii[radii.size() / 2], fitted.blur);
+  const VarianceInflation inflation = variance_inflation(fitted.noise, median(radii), fitted.blur);
   std::vector<Bead> beads;
   for (const BallFit& fit : fitted.fits) {
     Bead bead;
@@ -64,10 +65,18 @@ std::vector<Bead> grains_of(const Volume& volume, const FittedBeads& fitted) {
 }
 
 void add_warnings(Segmentation& result) {
+  std::vector<double> qualities;
+  for (const Bead& bead : result.beads) qualities.push_back(bead.quality);
+  if (median(qualities) < 0.5)
+    result.warnings.push_back("most of what was found is no ball: diameters and errors mean little");
   if (result.grains.size() > result.beads.size())
     result.warnings.push_back(fmt::format(
         "{} bodies have no ball's edge, against {} beads: irregular grains, or the other tone (--beads)?",
         result.grains.size(), result.beads.size()));
+  else if (!result.grains.empty())
+    result.warnings.push_back(
+        fmt::format("{} bodies have no ball's edge and are not in the table: broken beads, or something else",
+                    result.grains.size()));
   if (result.measured && !result.measured->polymer_seen)
     result.warnings.push_back(
         "no polymer can be told from what surrounds the beads: every bridge is undetermined");
@@ -127,11 +136,13 @@ Segmentation segment(const Volume& volume, const SegmentOptions& options) {
     return ball_share(volume, tried, options.cutoff);
   });
   FittedBeads fitted = fit_beads(volume, search, options.cutoff);
+  result.warnings = doubts_about(volume, search.histogram);
   if (fitted.fits.empty())
     bad_input(
         "no beads found: {} bodies looked at in a volume of {} x {} x {} voxels, none with the edge of a "
-        "ball",
-        search.seeds.size(), volume.size[0], volume.size[1], volume.size[2]);
+        "ball{}{}",
+        search.seeds.size(), volume.size[0], volume.size[1], volume.size[2],
+        result.warnings.empty() ? "" : "; ", fmt::join(result.warnings, "; "));
   sort_fits(fitted.fits);
   result.levels = search.levels;
   result.bright_beads = search.bright;

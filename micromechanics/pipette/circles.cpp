@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "base/median.h"
 #include "pipette/spline.h"
 
 namespace pendular::pipette {
@@ -16,12 +17,6 @@ constexpr int kRadii = 180;
 constexpr double kProfileStep = 0.25;  // pixels
 constexpr double kFaintStep = 0.01;    // grey per pixel: a fainter edge is none
 constexpr double kAwayFromNeighbour = 50.0 * M_PI / 180.0;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Grey step per pixel along a line, averaged over one pixel of it.
 std::vector<double> slopes(const SplineWindow& spline, const Point& from, const Point& along, double length) {

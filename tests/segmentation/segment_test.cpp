@@ -7,6 +7,7 @@
 
 #include "balls.h"
 #include "base/error.h"
+#include "comparison.h"
 #include "packing/bridges.h"
 #include "packing/generate.h"
 #include "scratch.h"
@@ -16,40 +17,6 @@
 
 namespace pendular {
 namespace {
-
-/// Measured against true beads, lengths in voxels.
-struct Comparison {
-  int missed = 0, invented = 0;
-  double centre_rms = 0.0;  ///< per axis
-  double diameter_bias = 0.0;
-  double pull = 0.0;  ///< rms error of the centres over their standard error
-};
-
-Comparison compare(const std::vector<Bead>& truth, const std::vector<Bead>& found, double voxel) {
-  Comparison result;
-  std::vector<bool> used(found.size(), false);
-  double n = 0.0, squares = 0.0, difference = 0.0, pulls = 0.0;
-  for (const Bead& bead : truth) {
-    const auto nearest = std::min_element(found.begin(), found.end(), [&](const Bead& a, const Bead& b) {
-      return (a.centre - bead.centre).squaredNorm() < (b.centre - bead.centre).squaredNorm();
-    });
-    const double error = nearest == found.end() ? bead.diameter : (nearest->centre - bead.centre).norm();
-    if (error > 0.25 * bead.diameter) {
-      ++result.missed;
-      continue;
-    }
-    used[static_cast<std::size_t>(nearest - found.begin())] = true;
-    n += 1.0;
-    squares += error * error / 3.0;
-    pulls += error * error / 3.0 / (nearest->sigma_centre * nearest->sigma_centre);
-    difference += nearest->diameter - bead.diameter;
-  }
-  result.invented = static_cast<int>(std::count(used.begin(), used.end(), false));
-  result.centre_rms = std::sqrt(squares / n) / voxel;
-  result.diameter_bias = difference / n / voxel;
-  result.pull = std::sqrt(pulls / n);
-  return result;
-}
 
 /// Voxels of 1 um.
 std::vector<Bead> beads_of(const std::vector<test::TrueBall>& balls) {
@@ -74,37 +41,18 @@ void PrintTo(const PhantomCase& c, std::ostream* out) {
 
 class OnPhantom : public testing::TestWithParam<PhantomCase> {};
 
-Sample small_sample() {
-  Sample sample;
-  sample.specimen.diameter = sample.specimen.height = 1.2e-3;
-  sample.specimen.volume_fraction = 0.52;
-  return sample;
-}
-
-/// Beads and bridges with polymer, the same for every case.
-const Packing& small_packing() {
-  static const Packing made = [] {
-    const Sample sample = small_sample();
-    Packing packing = generate_packing(sample, 1);
-    packing.bridges = candidate_bridges(packing.beads, sample.bridges.cutoff * mean_diameter(packing.beads));
-    draw_neck_diameters(packing, sample, 1);
-    return packing;
-  }();
-  return made;
-}
-
 TEST_P(OnPhantom, FindsEveryBead) {
   const PhantomCase& c = GetParam();
-  Sample sample = small_sample();
+  Sample sample = test::small_sample();
   sample.phantom.voxel = c.voxel_um * 1e-6;
   sample.phantom.noise = c.noise;
   sample.phantom.correlated_noise = c.correlated_noise;
   sample.phantom.polymer_contrast = c.contrast;
   sample.phantom.beam_hardening = c.beam_hardening;
-  const Packing& packing = small_packing();
+  const Packing& packing = test::small_packing();
   const Volume volume = make_phantom(packing, sample.phantom, 1);
   const Segmentation found = segment(volume);
-  const Comparison result = compare(packing.beads, found.beads, volume.spacing);
+  const test::Comparison result = test::compare(packing.beads, found.beads, volume.spacing);
   SCOPED_TRACE(fmt::format("centre rms {:.4f}, diameter bias {:.4f} voxels, pull {:.2f}", result.centre_rms,
                            result.diameter_bias, result.pull));
   EXPECT_EQ(result.missed, 0);
@@ -168,7 +116,7 @@ TEST(Segment, VoxelsTwiceAsHighAsTheyAreWide) {
   }
   const Volume high{{60, 60, 22}, volume.spacing, 0.5 * volume.spacing * Vec3::UnitZ(), pairs};
   const Segmentation found = segment(resampled(high, {1.0, 1.0, 2.0}));
-  const Comparison result = compare(beads_of(balls), found.beads, volume.spacing);
+  const test::Comparison result = test::compare(beads_of(balls), found.beads, volume.spacing);
   EXPECT_EQ(result.missed, 0);
   EXPECT_EQ(result.invented, 0);
   EXPECT_LT(result.centre_rms, 0.02);
@@ -210,7 +158,7 @@ TEST(Segment, MoreVoxelsThanSignedNumbersOf32BitsAndThanMemoryAllows) {
   const Segmentation found = segment(volume);
   ::setrlimit(RLIMIT_DATA, &usual);
   ASSERT_GT(volume.voxels(), std::size_t{1} << 31);
-  const Comparison result = compare(beads_of(balls), found.beads, volume.spacing);
+  const test::Comparison result = test::compare(beads_of(balls), found.beads, volume.spacing);
   EXPECT_EQ(result.missed, 0);
   EXPECT_EQ(result.invented, 0);
   EXPECT_LT(result.centre_rms, 0.02);
@@ -253,7 +201,7 @@ TEST(Segment, FinneysPacking) {
   for (int axis = 0; axis < 3; ++axis)
     size[axis] = static_cast<std::size_t>(high[axis] - low[axis] + 2.0 * radius + 9.0);
   const Segmentation found = segment(test::ball_volume(size, balls, 1.0, 0.05));
-  const Comparison result = compare(truth, found.beads, 1e-6);
+  const test::Comparison result = test::compare(truth, found.beads, 1e-6);
   SCOPED_TRACE(fmt::format("centre rms {:.4f}, diameter bias {:.4f} voxels, pull {:.2f}", result.centre_rms,
                            result.diameter_bias, result.pull));
   EXPECT_EQ(result.missed, 0);
