@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "base/parallel.h"
 #include "segmentation/field_of_view.h"
+#include "segmentation/resample.h"
 
 namespace pendular {
 namespace {
@@ -41,7 +42,7 @@ GreyLevels levels_within(const Volume& volume, const Container& container) {
 void find_bodies(BeadSearch& search, const Grid<float>& smooth) {
   search.mask = mask_of(smooth, search.levels.threshold, search.bright);
   if (search.container) clear_outside(search.mask, *search.container);
-  search.seeds = find_seeds(search.mask, 1.5 * static_cast<double>(smooth.factor));
+  search.seeds = find_seeds(search.mask, 1.5 * smooth.factor);
   stop_if_interrupted();
 }
 
@@ -49,7 +50,7 @@ void find_bodies(BeadSearch& search, const Grid<float>& smooth) {
 /// between them. Bodies that the picture cuts do not count: they may be of any shape.
 double inscribed_share(const BeadSearch& search) {
   const auto& mask = search.mask;
-  const double factor = static_cast<double>(mask.factor);
+  const double factor = mask.factor;
   const auto whole = [&](const Seed& seed) {
     for (int axis = 0; axis < 3; ++axis) {
       const double last = factor * static_cast<double>(mask.size[static_cast<std::size_t>(axis)]) - 1.0;
@@ -115,7 +116,7 @@ Part most_varied_part(const Grid<float>& grey) {
       }
   Part part{part_of(grey, best), {}};
   for (std::size_t axis = 0; axis < 3; ++axis)
-    part.first[static_cast<Eigen::Index>(axis)] = static_cast<double>(best.low[axis] * grey.factor);
+    part.first[static_cast<Eigen::Index>(axis)] = static_cast<double>(best.low[axis]) * grey.factor;
   return part;
 }
 
@@ -135,42 +136,81 @@ double likeness(BeadSearch trial, const Part& part, bool bright, const BallShare
   return inscribed * balls_among(trial);
 }
 
-}  // namespace
+/// Takes the tone, of those that may be, whose bodies look more like balls.
+void choose_tone(BeadSearch& search, const Grid<float>& grey, const std::vector<bool>& tones,
+                 const BallShare& balls_among) {
+  const Part part = most_varied_part(grey);
+  search.likeness = -1.0;
+  for (const bool bright : tones)
+    if (const double like = likeness(search, part, bright, balls_among); like > search.likeness)
+      search.likeness = like, search.bright = bright;
+}
 
-BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<double> least_radius,
-                        const BallShare& balls_among) {
-  constexpr double least_share = 0.4, smoothing = 0.7;
+/// Whether typical beads have enough nodes across.
+bool well_resolved(const BeadSearch& search) {
+  return typical_radius(search.seeds) >= least_radius_in_nodes * search.mask.factor;
+}
+
+/// The search on the volume's own voxels at the finest; all bodies.
+BeadSearch search_bodies(const Volume& volume, BeadTone tone, const BallShare& balls_among) {
+  constexpr double smoothing = 0.7;
   BeadSearch search;
   const auto view = field_of_view(volume);
   search.histogram = histogram_of(volume);
   if (view) leave_out(search.histogram, *view);
   search.levels = grey_levels(search.histogram);
+  search.bright = tone != BeadTone::dark;
   release(volume);
   stop_if_interrupted();
-  double typical = 0.0;
   for (std::size_t factor = first_factor(volume);; factor /= 2) {
     Grid<float> smooth = reduced(volume, factor, smoothing);
     if (view) fill_beyond(smooth, *view);
     release(volume);
     stop_if_interrupted();
-    const bool had_container = search.container.has_value();
-    if (!had_container || factor > 1) {
-      search.container = find_container(smooth);
-      if (search.container) search.levels = levels_within(volume, *search.container);
-    }
-    if (factor > 1 || (search.container && !had_container)) {
-      search.bright = tone != BeadTone::dark;
-      if (tone == BeadTone::automatic) {
-        const Part part = most_varied_part(smooth);
-        search.bright =
-            likeness(search, part, true, balls_among) >= likeness(search, part, false, balls_among);
-      }
-    }
+    search.container = find_container(smooth);
+    if (search.container) search.levels = levels_within(volume, *search.container);
+    const bool open = tone == BeadTone::automatic && (factor > 1 || search.container);
+    choose_tone(search, smooth, open ? std::vector{true, false} : std::vector{search.bright}, balls_among);
     find_bodies(search, smooth);
-    typical = typical_radius(search.seeds);
-    if (factor == 1 || typical >= least_radius_in_nodes * static_cast<double>(factor)) break;
+    if (factor == 1 || (well_resolved(search) && (looks_like_balls(search) || !may_refine(volume))))
+      return search;
   }
-  search.least_radius = least_radius.value_or(least_share * typical);
+}
+
+/// A search on voxels half as long, every other one of them a voxel of the volume, in the volume's own
+/// voxels.
+BeadSearch halved(BeadSearch search) {
+  for (Seed& seed : search.seeds) seed.centre *= 0.5, seed.radius *= 0.5;
+  search.mask.factor *= 0.5, search.mask.first *= 0.5;
+  if (auto& container = search.container) {
+    container->axis_x *= 0.5, container->axis_y *= 0.5, container->radius *= 0.5;
+    for (auto* end : {&container->bottom, &container->top})
+      if (*end) **end *= 0.5;
+  }
+  return search;
+}
+
+}  // namespace
+
+bool looks_like_balls(const BeadSearch& search) {
+  constexpr double least = 0.02;
+  return search.likeness > least;
+}
+
+bool may_refine(const Volume& volume) {
+  return volume.voxels() <= std::size_t{1} << 26;
+}
+
+BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<double> least_radius,
+                        const BallShare& balls_among) {
+  constexpr double least_share = 0.4;
+  BeadSearch search = search_bodies(volume, tone, balls_among);
+  if (may_refine(volume) && !(well_resolved(search) && looks_like_balls(search))) {
+    BeadSearch finer = search_bodies(resampled(volume, {2.0, 2.0, 2.0}), tone,
+                                     [&](const BeadSearch& tried) { return balls_among(halved(tried)); });
+    if (looks_like_balls(finer)) search = halved(std::move(finer));
+  }
+  search.least_radius = least_radius.value_or(least_share * typical_radius(search.seeds));
   std::erase_if(search.seeds, [&](const Seed& seed) { return seed.radius < search.least_radius; });
   return search;
 }
@@ -178,7 +218,7 @@ BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<doubl
 std::vector<Seed> search_missed(const Grid<std::uint8_t>& mask, const std::vector<Seed>& found,
                                 double least_radius) {
   Grid<std::uint8_t> rest = mask;
-  const double factor = static_cast<double>(mask.factor);
+  const double factor = mask.factor;
   for (const Seed& seed : found) {
     const double radius = seed.radius + 0.5 * factor;
     std::array<long, 3> low, high;

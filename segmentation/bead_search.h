@@ -20,6 +20,7 @@ struct BeadSearch {
   Grid<std::uint8_t> mask;  ///< 1: bead material, within the container
   std::vector<Seed> seeds;
   bool bright = true;         ///< beads are brighter than what surrounds them
+  double likeness = 0.0;      ///< to balls, of the bodies in a part of the volume: their share, 0 to 1
   double least_radius = 0.0;  ///< smallest seed kept, voxels
   std::optional<Container> container;
 };
@@ -27,12 +28,19 @@ struct BeadSearch {
 /// Share of a search's seeds, or of a sample of them, that have a ball's edge.
 using BallShare = std::function<double(const BeadSearch&)>;
 
+/// Whether enough of the bodies do.
+bool looks_like_balls(const BeadSearch& search);
+
+/// Whether voxels half as long, eight times as many, are no burden: in volumes of up to 2²⁶ voxels.
+bool may_refine(const Volume& volume);
+
 /// Looks for beads on the volume reduced by a power of two, lightly smoothed against noise: twofold, more
 /// where that leaves more than 2²⁸ nodes, and finer where the typical bead is less than twelve nodes across.
-/// The tone, where it is automatic, is that of the class for which this product is greater: the share
-/// `balls_among` its bodies, and the share of its volume that their inscribed balls fill; judged where grey
-/// values vary most.
-/// `least_radius` (voxels): leave out what is smaller; without it, what is below 0.4 of the typical radius.
+/// The tone, where it is automatic, is that of the class for which this product, the likeness, is greater:
+/// the share `balls_among` its bodies, and the share of its volume that their inscribed balls fill; judged
+/// where grey values vary most. Volumes that may be refined are also looked at on finer grids, down to half a
+/// voxel (by cubics), where nothing looks like balls or beads are still too small. `least_radius` (voxels):
+/// leave out what is smaller; without it, what is below 0.4 of the typical radius.
 BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<double> least_radius,
                         const BallShare& balls_among);
 

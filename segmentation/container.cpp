@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "segmentation/grey_levels.h"
 
 namespace pendular {
 namespace {
 
-// Shares of the range of grey values: a spread that only beads make, and a step that only a wall makes.
-constexpr double busy_spread = 0.2;
+// Shares of the range of grey values: a spread that only beads make, or, where they are so small that they
+// blur into each other, at least half of that; and a step that only a wall makes.
+constexpr double busy_spread = 0.2, least_busy_spread = 0.1;
 constexpr double least_step = 0.15;
 // A thin wall behind the first layer of beads steps up less; that it does so on a circle tells it from beads.
 constexpr double least_tube_step = 0.05;
@@ -65,6 +67,14 @@ std::vector<MeanAndSpread> columns_of(const Grid<float>& grey) {
   return columns;
 }
 
+/// What parts columns of beads from others.
+double busy_from(const std::vector<MeanAndSpread>& columns, double edge) {
+  std::vector<float> spreads;
+  for (const MeanAndSpread& column : columns) spreads.push_back(static_cast<float>(column.spread));
+  return std::clamp(grey_levels(histogram_of(spreads)).threshold, least_busy_spread * edge,
+                    busy_spread * edge);
+}
+
 /// A disc in nodes.
 struct Disc {
   double x = 0.0, y = 0.0, radius = 0.0;
@@ -72,11 +82,9 @@ struct Disc {
 
 /// The columns that vary, if they fill a disc that is clear of the picture's sides.
 std::optional<Disc> busy_disc(const Grid<float>& grey, const std::vector<MeanAndSpread>& columns,
-                              double edge) {
+                              double least_spread) {
   const std::size_t nx = grey.size[0], ny = grey.size[1];
-  const auto busy = [&](std::size_t i, std::size_t j) {
-    return columns[j * nx + i].spread > busy_spread * edge;
-  };
+  const auto busy = [&](std::size_t i, std::size_t j) { return columns[j * nx + i].spread > least_spread; };
   double area = 0.0, x = 0.0, y = 0.0;
   for (std::size_t j = 0; j < ny; ++j)
     for (std::size_t i = 0; i < nx; ++i)
@@ -213,14 +221,15 @@ std::vector<MeanAndSpread> slices_of(const Grid<float>& grey, const Disc& tube) 
 
 /// The face of a piston that follows slices[first], first+step, …, in nodes along that way; none if the mean
 /// does not step up where the beads end.
-std::optional<double> piston_face(const std::vector<MeanAndSpread>& slices, bool upwards, double edge) {
+std::optional<double> piston_face(const std::vector<MeanAndSpread>& slices, bool upwards, double least_spread,
+                                  double edge) {
   const auto n = std::ssize(slices);
   const auto slice = [&](std::ptrdiff_t k) -> const MeanAndSpread& {
     return slices[upwards ? k : n - 1 - k];
   };
   std::ptrdiff_t last_busy = -1;
   for (std::ptrdiff_t k = 0; k < n; ++k)
-    if (slice(k).spread > busy_spread * edge) last_busy = k;
+    if (slice(k).spread > least_spread) last_busy = k;
   if (last_busy < 0) return std::nullopt;
   const std::ptrdiff_t from = std::max<std::ptrdiff_t>(0, last_busy - 4),
                        to = std::min<std::ptrdiff_t>(n, last_busy + 8);
@@ -236,16 +245,17 @@ std::optional<double> piston_face(const std::vector<MeanAndSpread>& slices, bool
 std::optional<Container> find_container(const Grid<float>& grey) {
   const double edge = range_of(grey);
   const auto columns = columns_of(grey);
-  const auto busy = busy_disc(grey, columns, edge);
+  const double least_spread = busy_from(columns, edge);
+  const auto busy = busy_disc(grey, columns, least_spread);
   if (!busy) return std::nullopt;
   const auto tube = tube_of(grey, columns, *busy, edge);
   if (!tube) return std::nullopt;
-  const double f = static_cast<double>(grey.factor);
+  const double f = grey.factor;
   const auto full = [&](double node) { return (node + 0.5) * f - 0.5; };
   Container container{full(tube->x), full(tube->y), tube->radius * f, std::nullopt, std::nullopt};
   const auto slices = slices_of(grey, *tube);
-  if (const auto face = piston_face(slices, false, edge)) container.bottom = full(*face);
-  if (const auto face = piston_face(slices, true, edge)) container.top = full(*face);
+  if (const auto face = piston_face(slices, false, least_spread, edge)) container.bottom = full(*face);
+  if (const auto face = piston_face(slices, true, least_spread, edge)) container.top = full(*face);
   return container;
 }
 

@@ -68,7 +68,7 @@ void leave_out(Histogram& histogram, const FieldOfView& view) {
 
 void fill_beyond(Grid<float>& grey, const FieldOfView& view) {
   // Nodes nearer to the edge than this have been blended with what is beyond.
-  const double factor = static_cast<double>(grey.factor), within = view.radius - 3.0 * factor;
+  const double factor = grey.factor, within = view.radius - 3.0 * factor;
   const auto distance = [&](std::size_t i, std::size_t j) {
     const Vec3 p = grey.at(i, j, 0);
     return std::hypot(p.x() - view.x, p.y() - view.y);

@@ -44,7 +44,7 @@ Grid<float> filtered(Filter& filter, const Grid<T>& grid) {
 template <typename T>
 Grid<float> binned(std::span<const Grey<T>> pixels, const std::array<std::size_t, 3>& size,
                    std::size_t factor, std::size_t first, std::size_t last) {
-  Grid<float> grid{{size[0] / factor, size[1] / factor, last - first}, factor, {}};
+  Grid<float> grid{{size[0] / factor, size[1] / factor, last - first}, static_cast<double>(factor), {}};
   grid.values.reserve(grid.size[0] * grid.size[1] * grid.size[2]);
   const double share = 1.0 / static_cast<double>(factor * factor * factor);
   std::vector<double> row(grid.size[0]);
@@ -75,7 +75,9 @@ Grid<float> smoothed(const Grid<float>& grid, double sd) {
 Grid<float> reduced(const Volume& volume, std::size_t factor, double sd) {
   constexpr std::size_t thickness = 32;
   const auto margin = static_cast<std::size_t>(std::ceil(8.0 * sd));  // what lies beyond has no weight
-  Grid<float> grid{{volume.size[0] / factor, volume.size[1] / factor, volume.size[2] / factor}, factor, {}};
+  Grid<float> grid{{volume.size[0] / factor, volume.size[1] / factor, volume.size[2] / factor},
+                   static_cast<double>(factor),
+                   {}};
   const std::size_t slice = grid.size[0] * grid.size[1];
   grid.values.resize(slice * grid.size[2]);
   with_pixels(volume, [&](auto pixels) {

@@ -10,21 +10,21 @@
 
 namespace pendular {
 
-/// A volume reduced by a whole factor, on which beads and container are looked for. Positions anywhere in
-/// segmentation are in voxels of the full volume; node (i, j, k) lies at at(i, j, k).
+/// A volume reduced by a whole factor, or refined, on which beads and container are looked for. Positions
+/// anywhere in segmentation are in voxels of the full volume; node (i, j, k) lies at at(i, j, k).
 template <typename T>
 struct Grid {
   std::array<std::size_t, 3> size{};
-  std::size_t factor = 1;  ///< voxels of the full volume per node, along each axis
-  std::vector<T> values;   ///< x running fastest
+  double factor = 1.0;                  ///< voxels of the full volume per node, along each axis
+  std::vector<T> values;                ///< x running fastest
+  double first = 0.5 * (factor - 1.0);  ///< where node (0, 0, 0) lies, along each axis
 
   std::size_t index(std::size_t i, std::size_t j, std::size_t k) const {
     return (k * size[1] + j) * size[0] + i;
   }
   Vec3 at(std::size_t i, std::size_t j, std::size_t k) const {
-    const double f = static_cast<double>(factor);
-    return Vec3((static_cast<double>(i) + 0.5) * f - 0.5, (static_cast<double>(j) + 0.5) * f - 0.5,
-                (static_cast<double>(k) + 0.5) * f - 0.5);
+    return Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)) * factor +
+           Vec3::Constant(first);
   }
 };
 

@@ -189,7 +189,7 @@ class SeedCells {
 }  // namespace
 
 std::vector<Seed> find_seeds(const Grid<std::uint8_t>& mask, double least_radius) {
-  const double factor = static_cast<double>(mask.factor);
+  const double factor = mask.factor;
   const auto candidates = all_summits(mask, least_radius / factor);
   std::vector<Seed> seeds;
   if (candidates.empty()) return seeds;

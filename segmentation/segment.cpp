@@ -12,6 +12,7 @@
 #include "packing/statistics.h"
 #include "segmentation/bead_fit.h"
 #include "segmentation/doubts.h"
+#include "segmentation/resample.h"
 #include "segmentation/rows.h"
 
 namespace pendular {
@@ -122,21 +123,18 @@ void flag_boundaries(const Volume& volume, Segmentation& result) {
   for (std::size_t n = 0; n < result.beads.size(); ++n) result.beads[n].boundary |= packing.beads[n].boundary;
 }
 
-}  // namespace
-
-Segmentation segment(const Volume& volume, const SegmentOptions& options) {
-  for (const std::size_t n : volume.size)
-    if (n < 16)
-      bad_input("volume of {} x {} x {} voxels, expected at least 16 along each axis", volume.size[0],
-                volume.size[1], volume.size[2]);
-  Segmentation result;
+BeadSearch search_with(const Volume& volume, const SegmentOptions& options) {
   std::optional<double> least_radius;
   if (options.least_diameter) least_radius = 0.5 * *options.least_diameter / volume.spacing;
-  const BeadSearch search = search_beads(volume, options.tone, least_radius, [&](const BeadSearch& tried) {
-    return ball_share(volume, tried, options.cutoff);
-  });
+  return search_beads(volume, options.tone, least_radius,
+                      [&](const BeadSearch& tried) { return ball_share(volume, tried, options.cutoff); });
+}
+
+Segmentation taken_apart(const Volume& volume, const BeadSearch& search, const SegmentOptions& options,
+                         const std::vector<std::string>& doubts) {
+  Segmentation result;
+  result.warnings = doubts;
   FittedBeads fitted = fit_beads(volume, search, options.cutoff);
-  result.warnings = doubts_about(volume, search.histogram);
   if (fitted.fits.empty())
     bad_input(
         "no beads found: {} bodies looked at in a volume of {} x {} x {} voxels, none with the edge of a "
@@ -161,6 +159,24 @@ Segmentation segment(const Volume& volume, const SegmentOptions& options) {
   result.grains = grains_of(volume, fitted);
   add_warnings(result);
   return result;
+}
+
+}  // namespace
+
+Segmentation segment(const Volume& volume, const SegmentOptions& options) {
+  // Voxels; the edges of smaller beads hardly have voxels of their own.
+  constexpr double least_radius = 5.5;
+  for (const std::size_t n : volume.size)
+    if (n < 16)
+      bad_input("volume of {} x {} x {} voxels, expected at least 16 along each axis", volume.size[0],
+                volume.size[1], volume.size[2]);
+  const BeadSearch search = search_with(volume, options);
+  const auto doubts = doubts_about(volume, search.histogram);
+  if (!may_refine(volume) || !looks_like_balls(search) || typical_radius(search.seeds) > least_radius)
+    return taken_apart(volume, search, options, doubts);
+  Volume finer = resampled(volume, {2.0, 2.0, 2.0});
+  finer.spacing *= 0.5;
+  return taken_apart(finer, search_with(finer, options), options, doubts);
 }
 
 }  // namespace pendular
