@@ -208,6 +208,7 @@ BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<doubl
   if (may_refine(volume) && !(well_resolved(search) && looks_like_balls(search))) {
     BeadSearch finer = search_bodies(resampled(volume, {2.0, 2.0, 2.0}), tone,
                                      [&](const BeadSearch& tried) { return balls_among(halved(tried)); });
+    finer.histogram = search.histogram;
     if (looks_like_balls(finer)) search = halved(std::move(finer));
   }
   search.least_radius = least_radius.value_or(least_share * typical_radius(search.seeds));

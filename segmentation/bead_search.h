@@ -28,7 +28,7 @@ struct BeadSearch {
 /// Share of a search's seeds, or of a sample of them, that have a ball's edge.
 using BallShare = std::function<double(const BeadSearch&)>;
 
-/// Whether enough of the bodies do.
+/// Whether the likeness is a packing's, not that of irregular grains, noise, or beads run together.
 bool looks_like_balls(const BeadSearch& search);
 
 /// Whether voxels half as long, eight times as many, are no burden: in volumes of up to 2²⁶ voxels.
