@@ -11,7 +11,7 @@
 namespace pendular {
 namespace {
 
-constexpr double least_radius_in_nodes = 6.0;  // smaller beads that touch may have run together
+constexpr double least_radius_in_nodes = 7.0;  // smaller beads that touch may have run together
 
 Grid<std::uint8_t> mask_of(const Grid<float>& grey, double threshold, bool bright) {
   Grid<std::uint8_t> mask{grey.size, grey.factor, std::vector<std::uint8_t>(grey.values.size())};

@@ -35,7 +35,7 @@ bool looks_like_balls(const BeadSearch& search);
 bool may_refine(const Volume& volume);
 
 /// Looks for beads on the volume reduced by a power of two, lightly smoothed against noise: twofold, more
-/// where that leaves more than 2²⁸ nodes, and finer where the typical bead is less than twelve nodes across.
+/// where that leaves more than 2²⁸ nodes, and finer where the typical bead is less than fourteen nodes across.
 /// The tone, where it is automatic, is that of the class for which this product, the likeness, is greater:
 /// the share `balls_among` its bodies, and the share of its volume that their inscribed balls fill; judged
 /// where grey values vary most. Volumes that may be refined are also looked at on finer grids, down to half a
