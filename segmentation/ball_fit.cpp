@@ -7,6 +7,7 @@
 
 #include "base/median.h"
 #include "segmentation/ball_profile.h"
+#include "segmentation/rings.h"
 
 namespace pendular {
 namespace {
@@ -24,20 +25,20 @@ struct Shell {
 /// What hides a shell: the cones and bodies of the neighbours, and the container.
 class Hidden {
  public:
-  Hidden(std::span<const GreyBall> balls, std::size_t own, std::span<const int> neighbours,
-         const std::optional<Container>& container, const FitSetting& setting)
+  /// `margin` about the neighbours.
+  Hidden(std::span<const GreyBall> balls, std::size_t own, std::span<const Neighbour> neighbours,
+         const std::optional<Container>& container, const FitSetting& setting, double margin)
       : centre_(balls[own].centre),
         container_(container ? &*container : nullptr),
         margin_(setting.half_width) {
     const double sine = std::min(0.95, setting.cone / balls[own].radius),
                  cosine = std::sqrt(1.0 - sine * sine);
-    for (const int other : neighbours) {
-      const GreyBall& ball = balls[other];
+    for (const Neighbour& other : neighbours) {
+      const GreyBall& ball = balls[other.ball];
       const Vec3 to = ball.centre - centre_;
       const double distance = to.norm();
-      const double gap = distance - ball.radius - balls[own].radius;
-      const double reach = ball.radius + margin_;
-      bodies_.push_back({to, reach * reach, to / distance, gap < setting.cone_gap ? cosine : 2.0});
+      const double reach = ball.radius + margin;
+      bodies_.push_back({to, reach * reach, to / distance, other.polymer ? cosine : 2.0});
     }
     if (container && free_of(*container, balls[own].radius + 2.0 * margin_)) container_ = nullptr;
   }
@@ -73,12 +74,12 @@ class Hidden {
   Vec3 centre_;
   std::vector<Body> bodies_;
   const Container* container_;  ///< none where it is out of reach
-  double margin_;
+  double margin_;               ///< about the container
 };
 
 template <typename T>
 Shell shell_of(std::span<const T> pixels, const Volume& volume, const GreyBall& ball, const Hidden& hidden,
-               const FitSetting& setting) {
+               const FitSetting& setting, const GreyAt& known) {
   constexpr double inwards =
       3.0;  // at least: within the ball there is nothing else, and its level is to be seen
   const double inner = std::max(0.5, ball.radius - std::max(inwards, setting.half_width)),
@@ -108,12 +109,16 @@ Shell shell_of(std::span<const T> pixels, const Volume& volume, const GreyBall& 
         const double square = p.squaredNorm();
         if (square < inner * inner || square > outer * outer || all++ % setting.stride != 0) continue;
         if (!inside(i, 0) || !inside(j, 1) || !inside(k, 2) || hidden(p, std::sqrt(square))) continue;
+        const std::array voxel{static_cast<std::size_t>(i), static_cast<std::size_t>(j),
+                               static_cast<std::size_t>(k)};
+        const double ring = setting.rings ? setting.rings->at(voxel[0], voxel[1], voxel[2]) : 0.0;
+        if (std::isnan(ring)) continue;
         ++free;
-        const std::size_t n =
-            (static_cast<std::size_t>(k) * volume.size[1] + static_cast<std::size_t>(j)) * volume.size[0] +
-            static_cast<std::size_t>(i);
-        shell.samples.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()),
-                                 static_cast<float>(p.z()), static_cast<float>(pixels[n])});
+        const std::size_t n = (voxel[2] * volume.size[1] + voxel[1]) * volume.size[0] + voxel[0];
+        auto grey = static_cast<float>(static_cast<double>(pixels[n]) - ring);
+        if (known) grey -= static_cast<float>(known(ball.centre + p));
+        shell.samples.push_back(
+            {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), grey});
       }
     }
   shell.free_share = all ? static_cast<double>(free * setting.stride) / static_cast<double>(all) : 0.0;
@@ -164,6 +169,24 @@ Equations equations(const std::vector<ShellVoxel>& voxels, const GreyBall& ball,
     result.matrix(6, 6) = 1.0, result.right[6] = 0.0;
   }
   return result;
+}
+
+/// What errors of the known grey values add to the parameters' covariance: each shifts them by N⁻¹ Jᵀ e.
+Normal covariance_of(const std::vector<GreyAt>& errors, const std::vector<ShellVoxel>& voxels,
+                     const GreyBall& ball, const Parameters& q, const Normal& inverse) {
+  Eigen::Matrix<double, 7, Eigen::Dynamic> sums =
+      Eigen::Matrix<double, 7, Eigen::Dynamic>::Zero(7, static_cast<Eigen::Index>(errors.size()));
+  for (const ShellVoxel& voxel : voxels) {
+    const Parameters slopes = slopes_and_rest(voxel, ball, q).head<7>();
+    const Vec3 p = ball.centre + Vec3(voxel.x, voxel.y, voxel.z);
+    for (std::size_t m = 0; m < errors.size(); ++m)
+      if (const double error = errors[m](p); error != 0.0)
+        sums.col(static_cast<Eigen::Index>(m)) += error * slopes;
+  }
+  // The blur is not free where grey values are known.
+  sums.row(6).setZero();
+  const Eigen::Matrix<double, 7, Eigen::Dynamic> shifts = inverse * sums;
+  return shifts * shifts.transpose();
 }
 
 bool plausible(const Parameters& q, double radius, double contrast) {
@@ -244,12 +267,12 @@ bool drop_foreign(std::vector<ShellVoxel>& voxels, const GreyBall& start, const 
 }  // namespace
 
 BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::size_t own,
-                 std::span<const int> neighbours, const std::optional<Container>& container,
-                 const FitSetting& setting) {
+                 std::span<const Neighbour> neighbours, const std::optional<Container>& container,
+                 const FitSetting& setting, const KnownGrey& known) {
   const GreyBall& start = balls[own];
-  const Hidden hidden(balls, own, neighbours, container, setting);
-  Shell shell =
-      with_pixels(volume, [&](auto pixels) { return shell_of(pixels, volume, start, hidden, setting); });
+  const Hidden hidden(balls, own, neighbours, container, setting, known.grey ? 0.0 : setting.half_width);
+  Shell shell = with_pixels(
+      volume, [&](auto pixels) { return shell_of(pixels, volume, start, hidden, setting, known.grey); });
   BallFit fit{start, setting.blur, 0.0, 0.0, 0.0, shell.free_share, 1.0, false};
   constexpr std::size_t least_samples = 50;
   if (shell.samples.size() < least_samples) return fit;
@@ -269,7 +292,9 @@ BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::siz
   fit.borne_out = static_cast<double>(shell.samples.size()) / all;
   const double n = static_cast<double>(shell.samples.size());
   const double variance = now.squares / (n - 6.0);
-  const Normal covariance = now.matrix.ldlt().solve(Normal::Identity()) * variance;
+  const Normal inverse = now.matrix.ldlt().solve(Normal::Identity());
+  const Normal covariance =
+      variance * inverse + covariance_of(known.errors, shell.samples, start, q, inverse);
   const Vec3 shift = q.head<3>();
   fit.ball = {start.centre + shift,
               q[3],

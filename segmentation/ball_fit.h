@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,29 +32,48 @@ struct BallFit {
   bool converged = false;
 };
 
+/// Another ball that shows in a ball's shell.
+struct Neighbour {
+  int ball = 0;          ///< its place among all
+  bool polymer = false;  ///< there may be some in between: a cone towards it is left out
+};
+
+/// A grey value at a place in the volume.
+using GreyAt = std::function<double(const Vec3&)>;
+
+/// What is known of everything in a ball's shell but the ball.
+struct KnownGrey {
+  GreyAt grey;                 ///< without the ball's background; empty: nothing is known
+  std::vector<GreyAt> errors;  ///< of it, each by one standard error; independent of each other
+};
+
+struct Rings;
+
 /// How one round of fits looks at the shell around each ball.
 struct FitSetting {
   double blur = 1.0;  ///< voxels; starting value if `fit_blur`
   bool fit_blur = false;
   double half_width = 3.0;  ///< of the shell, voxels
-  double cone = 0.0;  ///< radius, on the ball's surface, of what is left out towards each neighbour, voxels
-  double cone_gap =
-      0.0;  ///< neighbours nearer than this (surface to surface, voxels) have a cone: there may be polymer
-  bool drop_foreign = false;  ///< leave out directions that a blurred ball does not explain, too
-  int iterations = 20;        ///< most
-  std::size_t stride = 1;     ///< of the voxels used, every so many
-  double tolerance = 1e-4;    ///< step of centre and radius below which the fit has converged, voxels
+  double cone =
+      0.0;  ///< radius, on the ball's surface, of what is left out where there may be polymer, voxels
+  const Rings* rings = nullptr;  ///< to be subtracted
+  bool drop_foreign = false;     ///< leave out directions that a blurred ball does not explain, too
+  int iterations = 20;           ///< most
+  std::size_t stride = 1;        ///< of the voxels used, every so many
+  double tolerance = 1e-4;       ///< step of centre and radius below which the fit has converged, voxels
 };
 
 /// Fits ball `own` of `balls` to the grey values of its shell |r − R| < half_width by Levenberg–Marquardt:
 /// centre, radius, contrast, background and, if asked, blur, from where `balls` has them; slopes stay. Left
-/// out are the cones towards the other balls named by `neighbours`, voxels nearer than half_width to their
-/// surfaces, and voxels as near to the container; with `drop_foreign` also the 96ths of the sphere in which
-/// the mean residual, within the ball or around it, is more than 4.5 times what such means usually are: there
-/// is something that nobody told of, as a wall, polymer, a pore, or a bead whose centre is not in the
-/// picture.
+/// out are the cones towards neighbours, voxels nearer than half_width to their surfaces, and voxels as near
+/// to the container, and where rings are not known. Where the grey values of all
+/// neighbours and of the polymer are `known`, they are subtracted, of the neighbours only their insides are
+/// left out, and errors of what is known add to those of the ball. With `drop_foreign` also the 96ths of the
+/// sphere in which the mean residual, within the ball or around it, is more than 4.5 times what such means
+/// usually are: there is something that nobody told of, as a wall, polymer, a pore, or a bead whose centre is
+/// not in the picture.
 BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::size_t own,
-                 std::span<const int> neighbours, const std::optional<Container>& container,
-                 const FitSetting& setting);
+                 std::span<const Neighbour> neighbours, const std::optional<Container>& container,
+                 const FitSetting& setting, const KnownGrey& known = {});
 
 }  // namespace pendular

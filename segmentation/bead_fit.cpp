@@ -17,35 +17,26 @@ constexpr double least_contrast = 0.4;    // of the classes' difference
 constexpr double most_misfit = 0.15;      // of the contrast, beside the noise
 constexpr double least_borne_out = 0.4;   // of what is seen of a ball's shell
 constexpr double least_separation = 0.7;  // of two balls, over the sum of their radii
-constexpr double cone_share = 0.53;       // widest neck and its blur, over the typical bead: 32° of it
 
-double median_radius(const std::vector<BallFit>& fits) {
-  std::vector<double> radii;
-  for (const BallFit& fit : fits) radii.push_back(fit.ball.radius);
-  return median(radii);
+/// Radius of a cone on its bead: the widest neck and its blur; some 32° of a bead forty voxels across.
+double cone_for(double radius, double blur) {
+  constexpr double widest = 0.485, blurs = 1.15, most = 0.57;  // of the typical radius
+  return std::min(widest * radius + blurs * blur, most * radius);
 }
 
-/// One round: every ball fitted with the others where they were before.
+/// One round: every ball fitted with the others where they were before, with cones towards those nearer than
+/// `cone_gap`.
 std::vector<BallFit> fit_round(const Volume& volume, const std::vector<GreyBall>& balls,
                                const std::optional<Container>& container, const FitSetting& setting,
-                               const std::string& name) {
-  std::vector<std::vector<int>> neighbours(balls.size());
-  for (const auto& [i, j] : near_balls(balls, std::max(setting.cone_gap, 2.0 * setting.half_width))) {
-    neighbours[static_cast<std::size_t>(i)].push_back(j);
-    neighbours[static_cast<std::size_t>(j)].push_back(i);
+                               double cone_gap, const std::string& name) {
+  Neighbours neighbours(balls.size());
+  for (const auto& [i, j] : near_balls(balls, std::max(cone_gap, 2.0 * setting.half_width))) {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    const double gap = (balls[a].centre - balls[b].centre).norm() - balls[a].radius - balls[b].radius;
+    neighbours[a].push_back({j, gap < cone_gap});
+    neighbours[b].push_back({i, gap < cone_gap});
   }
-  std::vector<BallFit> fits(balls.size());
-  Progress progress(name, static_cast<double>(balls.size()));
-  constexpr std::size_t batch = 64;
-  for (std::size_t first = 0; first < balls.size(); first += batch) {
-    stop_if_interrupted();
-    const std::size_t last = std::min(balls.size(), first + batch);
-    for_blocks(last - first, 1, [&](std::size_t n, std::size_t) {
-      fits[first + n] = fit_ball(volume, balls, first + n, neighbours[first + n], container, setting);
-    });
-    progress.update(static_cast<double>(last));
-  }
-  return fits;
+  return fit_all(volume, balls, neighbours, container, setting, name);
 }
 
 bool outside(const Volume& volume, const Vec3& p) {
@@ -111,15 +102,16 @@ std::vector<BallFit> coarse_fits(const Volume& volume, const std::vector<GreyBal
   const double radius = median(radii);
   FitSetting setting;
   setting.half_width = std::max(std::min(3.0, 0.4 * radius), 0.3 * radius);
-  setting.cone_gap = 2.0 * cutoff * radius + 2.0;
-  setting.cone = cone_share * radius;
+  const double cone_gap = 2.0 * cutoff * radius + 2.0;
+  setting.cone = cone_for(radius, setting.blur);
   setting.stride = stride_for(radius, setting.half_width);
   setting.tolerance = 0.05;
-  const auto first = fit_round(volume, balls, search.container, setting, "first fits");
+  const auto first = fit_round(volume, balls, search.container, setting, cone_gap, "first fits");
   setting.half_width = std::max(std::min(3.0, 0.4 * radius), 0.2 * radius);
   setting.stride = stride_for(radius, setting.half_width);
   setting.fit_blur = true;
-  auto fits = fit_round(volume, balls_of(first), search.container, setting, "first fits, with blur");
+  auto fits =
+      fit_round(volume, balls_of(first), search.container, setting, cone_gap, "first fits, with blur");
   reject(fits, volume, search);
   return fits;
 }
@@ -136,6 +128,42 @@ std::vector<GreyBall> balls_of(const std::vector<BallFit>& fits) {
   std::vector<GreyBall> balls;
   for (const BallFit& fit : fits) balls.push_back(fit.ball);
   return balls;
+}
+
+double median_radius(const std::vector<BallFit>& fits) {
+  std::vector<double> radii;
+  for (const BallFit& fit : fits) radii.push_back(fit.ball.radius);
+  return median(radii);
+}
+
+FitSetting fine_setting(const std::vector<BallFit>& fits, double blur) {
+  const double radius = median_radius(fits);
+  FitSetting setting;
+  setting.blur = blur;
+  setting.half_width = std::min(std::max(2.0, 3.0 * blur), 0.4 * radius);
+  setting.cone = cone_for(radius, blur);
+  setting.drop_foreign = true;
+  return setting;
+}
+
+std::vector<BallFit> fit_all(const Volume& volume, const std::vector<GreyBall>& balls,
+                             const Neighbours& neighbours, const std::optional<Container>& container,
+                             const FitSetting& setting, const std::string& name,
+                             const std::function<KnownGrey(std::size_t)>& known) {
+  std::vector<BallFit> fits(balls.size());
+  Progress progress(name, static_cast<double>(balls.size()));
+  constexpr std::size_t batch = 64;
+  for (std::size_t first = 0; first < balls.size(); first += batch) {
+    stop_if_interrupted();
+    const std::size_t last = std::min(balls.size(), first + batch);
+    for_blocks(last - first, 1, [&](std::size_t n, std::size_t) {
+      const std::size_t own = first + n;
+      fits[own] =
+          fit_ball(volume, balls, own, neighbours[own], container, setting, known ? known(own) : KnownGrey());
+    });
+    progress.update(static_cast<double>(last));
+  }
+  return fits;
 }
 
 std::vector<IndexPair> near_balls(const std::vector<GreyBall>& balls, double max_gap) {
@@ -184,25 +212,26 @@ FittedBeads fit_beads(const Volume& volume, const BeadSearch& search, double cut
   std::vector<double> blurs;
   for (const BallFit& fit : fits) blurs.push_back(fit.blur);
   result.blur = median(blurs);
-  FitSetting setting;
-  setting.blur = result.blur;
-  setting.half_width = std::min(std::max(2.0, 3.0 * result.blur), 0.4 * median_radius(fits));
-  setting.cone_gap = 2.0 * cutoff * median_radius(fits) + 0.5;
-  setting.cone = cone_share * median_radius(fits);
-  const auto fit_again = [&](const char* name) {
+  FitSetting last = fine_setting(fits, result.blur), rough = last;
+  rough.tolerance = 1e-3;
+  rough.stride = stride_for(median_radius(fits), rough.half_width);
+  const double cone_gap = 2.0 * cutoff * median_radius(fits) + 0.5;
+  const auto levelled = [&] {
     auto balls = balls_of(fits);
     set_level_slopes(balls);
-    fits = fit_round(volume, balls, search.container, setting, name);
+    return balls;
+  };
+  const auto fit_again = [&](const FitSetting& setting, const char* name) {
+    fits = fit_round(volume, levelled(), search.container, setting, cone_gap, name);
     reject(fits, volume, search);
   };
-  setting.drop_foreign = true;
-  setting.tolerance = 1e-3;
-  setting.stride = stride_for(median_radius(fits), setting.half_width);
-  fit_again("second fits");
-  setting.tolerance = 1e-4;
-  setting.stride = 1;
-  fit_again("last fits");
-  result.noise = measure_noise(volume, balls_of(fits), setting.half_width);
+  fit_again(rough, "second fits");
+  result.rings = find_rings(volume, levelled(), 4.0 * result.blur);
+  last.rings = rough.rings = result.rings.get();
+  // Levels that rings have shifted are not those of the specimen.
+  if (result.rings) fit_again(rough, "second fits without rings");
+  fit_again(last, "last fits");
+  result.noise = measure_noise(volume, balls_of(fits), last.half_width, last.rings);
   leave_out_odd(fits, result.noise.sd);
   result.grains = search_missed(search.mask, seeds_at(fits), search.least_radius);
   result.fits = std::move(fits);

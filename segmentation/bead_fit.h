@@ -1,12 +1,16 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "packing/neighbours.h"
 #include "segmentation/ball_fit.h"
 #include "segmentation/bead_search.h"
 #include "segmentation/noise.h"
+#include "segmentation/rings.h"
 
 namespace pendular {
 
@@ -15,11 +19,27 @@ struct FittedBeads {
   std::vector<BallFit> fits;
   double blur = 0.0;  ///< standard deviation of the point spread, voxel included, voxels
   Noise noise;
-  std::size_t rejected = 0;  ///< seeds that turned out to be no bead
-  std::vector<Seed> grains;  ///< bodies of the mask that no ball covers: too irregular for the fit
+  std::shared_ptr<const Rings> rings;  ///< taken away in the last fits; none where none show
+  std::size_t rejected = 0;            ///< seeds that turned out to be no bead
+  std::vector<Seed> grains;            ///< bodies of the mask that no ball covers: too irregular for the fit
 };
 
 std::vector<GreyBall> balls_of(const std::vector<BallFit>& fits);
+
+/// Of each ball, what shows in its shell.
+using Neighbours = std::vector<std::vector<Neighbour>>;
+
+/// The setting of a last round: all voxels within three blurs of the surface, the blur being known.
+FitSetting fine_setting(const std::vector<BallFit>& fits, double blur);
+
+/// Every ball fitted with the others where they are; `known`: of each ball, if it is given, what is known of
+/// all else (ball_fit.h). `name` is said while it lasts.
+std::vector<BallFit> fit_all(const Volume& volume, const std::vector<GreyBall>& balls,
+                             const Neighbours& neighbours, const std::optional<Container>& container,
+                             const FitSetting& setting, const std::string& name,
+                             const std::function<KnownGrey(std::size_t)>& known = {});
+
+double median_radius(const std::vector<BallFit>& fits);
 
 /// Pairs of balls whose surfaces are nearer than `max_gap` voxels, sorted.
 std::vector<IndexPair> near_balls(const std::vector<GreyBall>& balls, double max_gap);

@@ -35,12 +35,12 @@ bool looks_like_balls(const BeadSearch& search);
 bool may_refine(const Volume& volume);
 
 /// Looks for beads on the volume reduced by a power of two, lightly smoothed against noise: twofold, more
-/// where that leaves more than 2²⁸ nodes, and finer where the typical bead is less than fourteen nodes across.
-/// The tone, where it is automatic, is that of the class for which this product, the likeness, is greater:
-/// the share `balls_among` its bodies, and the share of its volume that their inscribed balls fill; judged
-/// where grey values vary most. Volumes that may be refined are also looked at on finer grids, down to half a
-/// voxel (by cubics), where nothing looks like balls or beads are still too small. `least_radius` (voxels):
-/// leave out what is smaller; without it, what is below 0.4 of the typical radius.
+/// where that leaves more than 2²⁸ nodes, and finer where the typical bead is less than fourteen nodes
+/// across. The tone, where it is automatic, is that of the class for which this product, the likeness, is
+/// greater: the share `balls_among` its bodies, and the share of its volume that their inscribed balls fill;
+/// judged where grey values vary most. Volumes that may be refined are also looked at on finer grids, down to
+/// half a voxel (by cubics), where nothing looks like balls or beads are still too small. `least_radius`
+/// (voxels): leave out what is smaller; without it, what is below 0.4 of the typical radius.
 BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<double> least_radius,
                         const BallShare& balls_among);
 

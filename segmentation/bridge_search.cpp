@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/interrupt.h"
 #include "base/parallel.h"
@@ -17,12 +18,6 @@ constexpr double kControlFrom = 0.25, kControlWidth = 0.2;  // gaps over the rad
 constexpr std::size_t kMostControls = 2000;
 constexpr std::size_t kLeastHosts = 24, kMostHosts = 800;
 constexpr double kLeastNoise = 1e-8;  // squared grey values; a picture may have no noise at all
-
-BallPair ball_pair(const std::vector<GreyBall>& balls, int i, int j) {
-  const GreyBall &a = balls[i], &b = balls[j];
-  return {i, j, (a.centre - b.centre).norm() - a.radius - b.radius,
-          2.0 * a.radius * b.radius / (a.radius + b.radius)};
-}
 
 double typical_radius(const std::vector<GreyBall>& balls) {
   double sum = 0.0;
@@ -111,6 +106,7 @@ ImageKnowledge knowledge_of(const FittedBeads& fitted) {
   knowledge.blur = fitted.blur;
   knowledge.sigma_blur = 0.02 * fitted.blur;
   knowledge.sigma_radius = std::max(1e-3, std::sqrt(square / static_cast<double>(fitted.fits.size())));
+  knowledge.rings = fitted.rings.get();
   knowledge.noise_variance =
       std::max(fitted.noise.sd * fitted.noise.sd, kLeastNoise) * correlated_volume(fitted.noise);
   return knowledge;
@@ -134,6 +130,16 @@ std::optional<NeckPopulation> population_of(const Evidence& evidence,
   for (std::size_t k = 0; k < evidence.size(); k += step)
     if (evidence[k]) seen.push_back(*evidence[k]), radii.push_back(looked_at[k].radius);
   return neck_population(seen, radii);
+}
+
+/// Contrast of what is in all crevices together, as if each held a neck of typical size, and its standard
+/// error.
+std::pair<double, double> mean_contrast(const Evidence& evidence) {
+  const std::size_t typical = neck_shares().size() / 2;
+  double n = 0.0, d = 0.0;
+  for (const auto& one : evidence)
+    if (one) n += one->n[typical], d += one->d[typical];
+  return d > 0.0 ? std::pair(n / d, 1.0 / std::sqrt(d)) : std::pair(0.0, HUGE_VAL);
 }
 
 /// Probability, neck and state of every pair; without a population, or where nothing is seen, undetermined.
@@ -213,6 +219,7 @@ BridgeSummary measure_bridges(const Volume& volume, const FittedBeads& fitted,
   summary.undetermined = count(BridgeState::undetermined);
   summary.unseen = static_cast<std::size_t>(
       std::count_if(evidence.begin(), evidence.end(), [](const auto& one) { return !one.has_value(); }));
+  std::tie(summary.contrast, summary.sigma_contrast) = mean_contrast(evidence);
   if (!population) return summary;
   summary.polymer_seen = true;
   summary.contrast = population->contrast, summary.sigma_contrast = population->sigma_contrast;

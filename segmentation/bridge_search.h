@@ -29,7 +29,8 @@ struct BridgeSummary {
   std::size_t bridges = 0, none = 0, undetermined = 0;
   std::size_t unseen = 0;                       ///< of the undetermined: something else hides the crevice
   bool polymer_seen = false;                    ///< without it nothing is said of any pair
-  double contrast = 0.0, sigma_contrast = 0.0;  ///< of the polymer, over that of the beads
+  double contrast = 0.0, sigma_contrast = 0.0;  ///< of the polymer, over that of the beads; where none is
+                                                ///< seen, of what is in all crevices together
   double share = 0.0;                           ///< of the pairs that have a bridge, as estimated
   double diameter = 0.0, diameter_sd = 0.0;     ///< of all necks, without errors of measurement
   double noise_scatter =

@@ -6,12 +6,14 @@
 
 #include "base/parallel.h"
 #include "segmentation/ball_profile.h"
+#include "segmentation/rings.h"
 
 namespace pendular {
 namespace {
 
-constexpr double kWidest = 0.6, kBlurs = 3.0;  // radii and blurs from the axis
-constexpr double kInside = 1.5;                // blurs into the balls
+constexpr double kWidest = 0.6, kBlurs = 3.0;    // radii and blurs from the axis
+constexpr double kInside = 1.5, kDeepest = 3.0;  // blurs into the balls: of what is looked at, of templates
+constexpr double kFirstShare = 0.1, kShareStep = 0.0125;
 constexpr double kGapStep = 0.2, kRadiusStep = 0.03;
 constexpr double kSeen = 0.5;
 constexpr double kBackground = 0.1;  // prior standard deviation of the background, over the balls' contrast
@@ -68,12 +70,12 @@ struct Crevice {
 
 template <typename T>
 Crevice crevice_of(std::span<const T> pixels, const Volume& volume, std::span<const GreyBall> balls,
-                   const BallPair& pair, const Elsewhere& elsewhere, const NeckTemplate& made, double blur) {
+                   const BallPair& pair, const Elsewhere& elsewhere, const NeckTemplate& made, double blur,
+                   const Rings* rings) {
   const GreyBall &a = balls[pair.i], &b = balls[pair.j];
-  const double length = (b.centre - a.centre).norm();
-  const Vec3 axis = (b.centre - a.centre) / length;
+  const CreviceAxes axes(a, b);
   const double outer = reach_across(pair.radius, blur);
-  const Vec3 middle = a.centre + 0.5 * (a.radius + length - b.radius) * axis;
+  const Vec3 middle = a.centre + 0.5 * (a.radius + axes.length() - b.radius) * axes.axis();
   const double background = 0.5 * (a.background + b.background);
   Crevice crevice{std::vector<Cell>(made.high * made.wide), 0.0};
   double all = 0.0, seen = 0.0;
@@ -82,31 +84,29 @@ Crevice crevice_of(std::span<const T> pixels, const Volume& volume, std::span<co
     for (long j = std::lround(middle.y() - half); j <= std::lround(middle.y() + half); ++j)
       for (long i = std::lround(middle.x() - half); i <= std::lround(middle.x() + half); ++i) {
         const Vec3 p(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
-        const double along = axis.dot(p - a.centre);
-        const double across2 = (p - a.centre).squaredNorm() - along * along;
-        if (across2 >= outer * outer) continue;
-        const double ra = std::sqrt(along * along + across2);
-        const double rb = std::sqrt((length - along) * (length - along) + across2);
+        const auto place = axes.place(p);
+        if (place.across2 >= outer * outer) continue;
+        const double left = axes.length() - place.along;
+        const double ra = std::sqrt(place.along * place.along + place.across2);
+        const double rb = std::sqrt(left * left + place.across2);
         if (ra < a.radius - kInside * blur || rb < b.radius - kInside * blur) continue;
-        // Halfway between the surfaces, which for unequal balls is bent.
-        const double across = std::sqrt(across2);
-        const double of_a = std::sqrt(std::max(0.0, a.radius * a.radius - across2));
-        const double of_b = length - std::sqrt(std::max(0.0, b.radius * b.radius - across2));
-        const double u = std::fabs(along - 0.5 * (of_a + of_b));
+        const auto [u, half_here] = axes.height(place);
         const auto row = static_cast<std::size_t>(u / NeckTemplate::kCell),
-                   column = static_cast<std::size_t>(across / NeckTemplate::kCell);
-        if (row >= made.high || column >= made.wide || u > 0.5 * (of_b - of_a) + kInside * blur) continue;
+                   column = static_cast<std::size_t>(std::sqrt(place.across2) / NeckTemplate::kCell);
+        if (row >= made.high || column >= made.wide || u > half_here + kInside * blur) continue;
         all += 1.0;
         if (!elsewhere.in_picture(i, j, k) || elsewhere(p)) continue;
+        const std::array voxel{static_cast<std::size_t>(i), static_cast<std::size_t>(j),
+                               static_cast<std::size_t>(k)};
+        const double ring = rings ? rings->at(voxel[0], voxel[1], voxel[2]) : 0.0;
+        if (std::isnan(ring)) continue;
         seen += 1.0;
         const BallProfile pa = ball_profile(ra, a.radius, blur), pb = ball_profile(rb, b.radius, blur);
-        const std::size_t n =
-            (static_cast<std::size_t>(k) * volume.size[1] + static_cast<std::size_t>(j)) * volume.size[0] +
-            static_cast<std::size_t>(i);
+        const std::size_t n = (voxel[2] * volume.size[1] + voxel[1]) * volume.size[0] + voxel[0];
         Cell& cell = crevice.cells[row * made.wide + column];
         cell.voxels += 1.0;
-        cell.residual +=
-            static_cast<double>(pixels[n]) - background - a.contrast * pa.value - b.contrast * pb.value;
+        cell.residual += static_cast<double>(pixels[n]) - ring - background - a.contrast * pa.value -
+                         b.contrast * pb.value;
         cell.by_radius += a.contrast * pa.by_radius + b.contrast * pb.by_radius;
         cell.by_blur += a.contrast * pa.by_blur + b.contrast * pb.by_blur;
       }
@@ -116,13 +116,60 @@ Crevice crevice_of(std::span<const T> pixels, const Volume& volume, std::span<co
 
 }  // namespace
 
+BallPair ball_pair(std::span<const GreyBall> balls, int i, int j) {
+  const GreyBall &a = balls[i], &b = balls[j];
+  return {i, j, (a.centre - b.centre).norm() - a.radius - b.radius,
+          2.0 * a.radius * b.radius / (a.radius + b.radius)};
+}
+
+CreviceAxes::CreviceAxes(const GreyBall& a, const GreyBall& b)
+    : centre_(a.centre),
+      axis_((b.centre - a.centre).normalized()),
+      length_((b.centre - a.centre).norm()),
+      square_a_(a.radius * a.radius),
+      square_b_(b.radius * b.radius) {}
+
+CreviceAxes::Place CreviceAxes::place(const Vec3& p) const {
+  const Vec3 from = p - centre_;
+  const double along = axis_.dot(from);
+  return {along, from.squaredNorm() - along * along};
+}
+
+CreviceAxes::Height CreviceAxes::height(const Place& place) const {
+  const double of_a = std::sqrt(std::max(0.0, square_a_ - place.across2));
+  const double of_b = length_ - std::sqrt(std::max(0.0, square_b_ - place.across2));
+  return {std::fabs(place.along - 0.5 * (of_a + of_b)), 0.5 * (of_b - of_a)};
+}
+
 std::span<const double> neck_shares() {
   static const std::vector<double> shares = [] {
     std::vector<double> all;
-    for (int k = 0; k <= 40; ++k) all.push_back(0.1 + 0.0125 * k);
+    for (int k = 0; k <= 40; ++k) all.push_back(kFirstShare + kShareStep * k);
     return all;
   }();
   return shares;
+}
+
+double NeckTemplate::at(double share, double from_middle, double across) const {
+  const auto row = static_cast<std::size_t>(from_middle / kCell),
+             column = static_cast<std::size_t>(across / kCell);
+  if (row >= high || column >= wide) return 0.0;
+  const double last = static_cast<double>(necks.size() - 1);
+  const double place = std::clamp((share - kFirstShare) / kShareStep, 0.0, last);
+  const auto size = std::min(static_cast<std::size_t>(place), necks.size() - 2);
+  // By the means of cells: between the centres of the four nearest, of either size.
+  const double u = std::max(0.0, from_middle / kCell - 0.5), v = std::max(0.0, across / kCell - 0.5);
+  const auto i = static_cast<std::size_t>(u), j = static_cast<std::size_t>(v);
+  const double w[] = {u - static_cast<double>(i), v - static_cast<double>(j),
+                      place - static_cast<double>(size)};
+  double sum = 0.0;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    const std::size_t a = corner & 1, b = corner >> 1 & 1, c = corner >> 2;
+    if (i + a >= high || j + b >= wide) continue;
+    sum += (a ? w[0] : 1.0 - w[0]) * (b ? w[1] : 1.0 - w[1]) * (c ? w[2] : 1.0 - w[2]) *
+           static_cast<double>(necks[size + c][(i + a) * wide + j + b]);
+  }
+  return sum;
 }
 
 NeckTemplates::Key NeckTemplates::key_of(const BallPair& pair) {
@@ -144,7 +191,7 @@ NeckTemplates::NeckTemplates(std::span<const BallPair> pairs, double blur) {
     const double radius = std::exp(kRadiusStep * static_cast<double>(key.second)),
                  length = 2.0 * radius + gap;
     const double across = reach_across(radius * (1.0 + kRadiusStep), blur);
-    const double up = half_height(std::min(across, 0.95 * radius), radius, gap) + kInside * blur;
+    const double up = half_height(std::min(across, 0.95 * radius), radius, gap) + kDeepest * blur;
     const auto high = static_cast<std::size_t>(up / NeckTemplate::kCell) + 2,
                wide = static_cast<std::size_t>(across / NeckTemplate::kCell) + 1;
     const Neck neck{
@@ -171,7 +218,7 @@ std::optional<NeckEvidence> neck_evidence(const Volume& volume, std::span<const 
   const NeckTemplate& made = templates.of(pair);
   const Elsewhere elsewhere(volume, balls, others, container, kBlurs * knowledge.blur);
   const Crevice crevice = with_pixels(volume, [&](auto pixels) {
-    return crevice_of(pixels, volume, balls, pair, elsewhere, made, knowledge.blur);
+    return crevice_of(pixels, volume, balls, pair, elsewhere, made, knowledge.blur, knowledge.rings);
   });
   if (crevice.seen < kSeen) return std::nullopt;
   const double contrast = 0.5 * (balls[pair.i].contrast + balls[pair.j].contrast);

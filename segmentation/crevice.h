@@ -20,6 +20,34 @@ struct BallPair {
   double radius = 0.0;  ///< harmonic mean of both: what the crevice's shape follows near the axis
 };
 
+BallPair ball_pair(std::span<const GreyBall> balls, int i, int j);
+
+/// The coordinates of the crevice between two balls.
+class CreviceAxes {
+ public:
+  CreviceAxes(const GreyBall& a, const GreyBall& b);
+
+  struct Place {
+    double along = 0.0;    ///< the axis, from the centre of a
+    double across2 = 0.0;  ///< square of the distance from the axis
+  };
+  Place place(const Vec3& p) const;
+
+  struct Height {
+    double from_middle = 0.0;  ///< distance from the surface halfway between the balls
+    double half = 0.0;         ///< of what is between them there
+  };
+  /// For unequal balls the surface halfway is bent.
+  Height height(const Place& place) const;
+
+  double length() const { return length_; }
+  const Vec3& axis() const { return axis_; }
+
+ private:
+  Vec3 centre_, axis_;
+  double length_, square_a_, square_b_;
+};
+
 /// Radii of necks that are tried, over the pair's radius.
 std::span<const double> neck_shares();
 
@@ -29,6 +57,9 @@ struct NeckTemplate {
   static constexpr double kCell = 0.5;  ///< edge of a cell, voxels
   std::size_t high = 0, wide = 0;
   std::vector<std::vector<float>> necks;
+
+  /// What a neck of this radius, over the pair's, fills of a voxel at a place; 0 outside the cells.
+  double at(double share, double from_middle, double across) const;
 };
 
 /// Templates for pairs: alike for those whose gaps are within a fifth of a voxel and whose radii are within
@@ -55,6 +86,7 @@ struct ImageKnowledge {
   double blur = 1.0, sigma_blur = 0.02;  ///< voxels
   double sigma_radius = 0.02;            ///< voxels
   double noise_variance = 1.0;           ///< of what a cell's mean is off by, times its voxels
+  const Rings* rings = nullptr;          ///< to be subtracted
 };
 
 /// From the voxels outside both balls, within 0.6 radii and three blurs of their axis, at least three blurs

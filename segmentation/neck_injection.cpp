@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "segmentation/rings.h"
 
 namespace pendular {
 namespace {
@@ -19,7 +20,7 @@ struct Part {
 };
 
 Part part_about(const Volume& volume, std::span<const GreyBall> balls, const BallPair& pair,
-                std::span<const int> near, const std::optional<Container>& container) {
+                std::span<const int> near, const std::optional<Container>& container, const Rings* rings) {
   const Vec3 middle = 0.5 * (balls[pair.i].centre + balls[pair.j].centre);
   std::array<std::size_t, 3> first{}, size{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -47,9 +48,12 @@ Part part_about(const Volume& volume, std::span<const GreyBall> balls, const Bal
   with_pixels(volume, [&](auto all) {
     for (std::size_t k = 0; k < size[2]; ++k)
       for (std::size_t j = 0; j < size[1]; ++j)
-        for (std::size_t i = 0; i < size[0]; ++i)
-          pixels.push_back(static_cast<float>(
-              all[((first[2] + k) * volume.size[1] + first[1] + j) * volume.size[0] + first[0] + i]));
+        for (std::size_t i = 0; i < size[0]; ++i) {
+          const std::size_t x = first[0] + i, y = first[1] + j, z = first[2] + k;
+          pixels.push_back(static_cast<float>(all[(z * volume.size[1] + y) * volume.size[0] + x]));
+          if (const double ring = rings ? rings->at(x, y, z) : 0.0; !std::isnan(ring))
+            pixels.back() -= static_cast<float>(ring);
+        }
   });
   part.volume.pixels = std::move(pixels);
   return part;
@@ -80,14 +84,16 @@ std::vector<NeckRecovery> recover_injected(const Volume& volume, std::span<const
                                            const ImageKnowledge& knowledge, const NeckPopulation& population,
                                            double threshold) {
   const NeckTemplates templates(hosts, knowledge.blur);
+  ImageKnowledge in_part = knowledge;
+  in_part.rings = nullptr;  // taken away where the part is cut out
   constexpr std::size_t sizes = std::size(kShares);
   std::vector<std::optional<NeckVerdict>> verdicts(hosts.size());
   for_blocks(hosts.size(), 1, [&](std::size_t n, std::size_t) {
-    Part part = part_about(volume, balls, hosts[n], near[n], container);
+    Part part = part_about(volume, balls, hosts[n], near[n], container, knowledge.rings);
     inject(part, kShares[n % sizes] * hosts[n].radius, population.contrast, knowledge.blur);
     const BallPair pair{0, 1, hosts[n].gap, hosts[n].radius};
     const auto evidence =
-        neck_evidence(part.volume, part.balls, pair, part.others, part.container, knowledge, templates);
+        neck_evidence(part.volume, part.balls, pair, part.others, part.container, in_part, templates);
     if (evidence) verdicts[n] = neck_verdict(*evidence, pair.radius, population);
   });
   std::vector<NeckRecovery> points(sizes);

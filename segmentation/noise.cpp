@@ -6,6 +6,7 @@
 #include "base/median.h"
 #include "base/parallel.h"
 #include "segmentation/ball_profile.h"
+#include "segmentation/rings.h"
 
 namespace pendular {
 namespace {
@@ -19,7 +20,8 @@ struct LagSums {
 
 /// Products of deviations from the core's mean, along the three axes.
 template <typename T>
-LagSums core_sums(std::span<const T> pixels, const Volume& volume, const GreyBall& ball, double margin) {
+LagSums core_sums(std::span<const T> pixels, const Volume& volume, const GreyBall& ball, double margin,
+                  const Rings* rings) {
   LagSums sums;
   const double core = ball.radius - margin;
   if (core < 1.5) return sums;
@@ -40,10 +42,14 @@ LagSums core_sums(std::span<const T> pixels, const Volume& volume, const GreyBal
         if (x < 0 || y < 0 || z < 0 || x >= static_cast<long>(volume.size[0]) ||
             y >= static_cast<long>(volume.size[1]) || z >= static_cast<long>(volume.size[2]))
           continue;
-        const double grey = static_cast<double>(
+        double grey = static_cast<double>(
             pixels[(static_cast<std::size_t>(z) * volume.size[1] + static_cast<std::size_t>(y)) *
                        volume.size[0] +
                    static_cast<std::size_t>(x)]);
+        if (rings)
+          grey -= rings->at(static_cast<std::size_t>(x), static_cast<std::size_t>(y),
+                            static_cast<std::size_t>(z));
+        if (std::isnan(grey)) continue;
         at(i, j, k) = grey;
         n += 1.0;
         sum += grey;
@@ -78,13 +84,14 @@ double correlation_at(const std::vector<double>& correlation, double distance) {
 
 }  // namespace
 
-Noise measure_noise(const Volume& volume, std::span<const GreyBall> balls, double margin) {
+Noise measure_noise(const Volume& volume, std::span<const GreyBall> balls, double margin,
+                    const Rings* rings) {
   const std::size_t step = std::max<std::size_t>(1, balls.size() / most_balls);
   const std::size_t used = balls.empty() ? 0 : (balls.size() - 1) / step + 1;
   std::vector<LagSums> sums(used);
   with_pixels(volume, [&](auto pixels) {
     for_blocks(used, 1, [&](std::size_t n, std::size_t) {
-      sums[n] = core_sums(pixels, volume, balls[n * step], margin);
+      sums[n] = core_sums(pixels, volume, balls[n * step], margin, rings);
     });
   });
   // Pores and cracks are not noise: cores that vary by more than twice the middle one do not count.

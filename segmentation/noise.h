@@ -14,8 +14,9 @@ struct Noise {
 };
 
 /// Pooled over the cores of at most some hundred of the balls, each less its own mean. `margin`: what of each
-/// ball's outer part is not core, voxels. Without any core the sd is 0.
-Noise measure_noise(const Volume& volume, std::span<const GreyBall> balls, double margin);
+/// ball's outer part is not core, voxels. Without any core the sd is 0. `rings`, if any, are no noise.
+Noise measure_noise(const Volume& volume, std::span<const GreyBall> balls, double margin,
+                    const Rings* rings = nullptr);
 
 /// Σ ρ over all lags, in voxels: by how much correlation raises the variance of a mean over many voxels; ρ
 /// taken as isotropic.

@@ -12,6 +12,7 @@
 #include "packing/statistics.h"
 #include "segmentation/bead_fit.h"
 #include "segmentation/doubts.h"
+#include "segmentation/polymer_fit.h"
 #include "segmentation/resample.h"
 #include "segmentation/rows.h"
 
@@ -142,6 +143,7 @@ Segmentation taken_apart(const Volume& volume, const BeadSearch& search, const S
         search.seeds.size(), volume.size[0], volume.size[1], volume.size[2],
         result.warnings.empty() ? "" : "; ", fmt::join(result.warnings, "; "));
   sort_fits(fitted.fits);
+  fit_with_polymer(volume, search.container, options.cutoff, fitted);
   result.levels = search.levels;
   result.bright_beads = search.bright;
   result.beads = beads_of(volume, fitted);
@@ -155,6 +157,7 @@ Segmentation taken_apart(const Volume& volume, const BeadSearch& search, const S
   result.blur = fitted.blur * volume.spacing;
   result.noise = fitted.noise.sd / (result.levels.bright - result.levels.dark);
   result.noise_correlation = fitted.noise.correlation.size() > 1 ? fitted.noise.correlation[1] : 0.0;
+  if (fitted.rings) result.rings = fitted.rings->rms / (result.levels.bright - result.levels.dark);
   result.rejected = fitted.rejected;
   result.grains = grains_of(volume, fitted);
   add_warnings(result);

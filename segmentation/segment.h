@@ -32,6 +32,7 @@ struct Segmentation {
   double blur = 0.0;               ///< standard deviation of the point spread with the voxel's own, m
   double noise = 0.0;              ///< standard deviation, over the classes' difference
   double noise_correlation = 0.0;  ///< of neighbouring voxels
+  double rings = 0.0;              ///< taken away, root mean square over the classes' difference
   std::size_t rejected = 0;        ///< places looked at that turned out to be no bead
   std::vector<std::string> warnings;
 };

@@ -84,15 +84,49 @@ TEST(BallFit, NeighbourIsLeftOut) {
   const std::vector<GreyBall> balls = {{truth[0].centre, 10.0, 20000.0, 10000.0},
                                        {truth[1].centre, 10.0, 20000.0, 10000.0}};
   FitSetting setting;
-  setting.cone_gap = 1.0;
   setting.cone = 5.3;
-  const std::vector<int> neighbour = {1};
+  const std::vector<Neighbour> neighbour = {{1, true}};
   const BallFit alone = fit_ball(volume, balls, 0, {}, std::nullopt, setting);
   const BallFit masked = fit_ball(volume, balls, 0, neighbour, std::nullopt, setting);
   EXPECT_GT((alone.ball.centre - truth[0].centre).norm(), 0.05);
   EXPECT_LT((masked.ball.centre - truth[0].centre).norm(), 2e-3);
   EXPECT_NEAR(masked.ball.radius, 10.0, 2e-3);
   EXPECT_LT(masked.free_share, alone.free_share);
+}
+
+/// With the neighbour's image known no cone is needed, and what is doubted of it shows in the standard error.
+TEST(BallFit, NeighbourIsKnown) {
+  const std::vector<test::TrueBall> truth = {{Vec3(20, 20, 20), 10.0}, {Vec3(40.2, 20, 20), 10.0}};
+  const std::vector<test::TrueBall> grown = {truth[0], {truth[1].centre, 10.1}};
+  const std::vector<GreyBall> balls = {{truth[0].centre, 10.0, 20000.0, 10000.0},
+                                       {truth[1].centre, 10.0, 20000.0, 10000.0}};
+  const auto image = [](double radius) {
+    return [radius](const Vec3& p) {
+      return 20000.0 * ball_profile((p - Vec3(40.2, 20, 20)).norm(), radius, 1.0).value;
+    };
+  };
+  FitSetting setting;
+  setting.cone = 5.3;
+  const std::vector<Neighbour> hidden = {{1, true}}, seen = {{1, false}};
+  const auto fit_in = [&](const std::vector<test::TrueBall>& there, const KnownGrey& known) {
+    return fit_ball(ball_volume({61, 41, 41}, there, 1.0, 0.0), balls, 0, seen, std::nullopt, setting, known);
+  };
+  const BallFit masked =
+      fit_ball(ball_volume({61, 41, 41}, truth, 1.0, 0.0), balls, 0, hidden, std::nullopt, setting);
+  const BallFit known = fit_in(truth, {image(10.0), {}});
+  EXPECT_LT((known.ball.centre - truth[0].centre).norm(), 2e-3);
+  EXPECT_NEAR(known.ball.radius, 10.0, 2e-3);
+  EXPECT_GT(known.free_share, masked.free_share + 0.05);
+
+  const GreyAt doubt = [&](const Vec3& p) { return image(10.1)(p) - image(10.0)(p); };
+  const BallFit doubted = fit_in(truth, {image(10.0), {doubt}}), wrong = fit_in(grown, {image(10.0), {}});
+  const double shift = (wrong.ball.centre - known.ball.centre).norm();
+  EXPECT_GT(shift, 1e-3);
+  const auto added = [](double with, double without) { return std::sqrt(with * with - without * without); };
+  EXPECT_NEAR(std::sqrt(3.0) * added(doubted.sigma_centre, known.sigma_centre) / shift, 1.0, 0.1);
+  EXPECT_NEAR(
+      added(doubted.sigma_radius, known.sigma_radius) / std::abs(wrong.ball.radius - known.ball.radius), 1.0,
+      0.1);
 }
 
 }  // namespace

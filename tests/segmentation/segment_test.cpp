@@ -32,7 +32,7 @@ std::vector<Bead> beads_of(const std::vector<test::TrueBall>& balls) {
 struct PhantomCase {
   const char* name;
   double voxel_um, noise, correlated_noise, contrast, centre_rms, bias;
-  double beam_hardening = 0.0;
+  double beam_hardening = 0.0, rings = 0.0;
 };
 
 void PrintTo(const PhantomCase& c, std::ostream* out) {
@@ -49,6 +49,7 @@ TEST_P(OnPhantom, FindsEveryBead) {
   sample.phantom.correlated_noise = c.correlated_noise;
   sample.phantom.polymer_contrast = c.contrast;
   sample.phantom.beam_hardening = c.beam_hardening;
+  sample.phantom.rings = c.rings;
   const Packing& packing = test::small_packing();
   const Volume volume = make_phantom(packing, sample.phantom, 1);
   const Segmentation found = segment(volume);
@@ -73,6 +74,8 @@ TEST_P(OnPhantom, FindsEveryBead) {
 INSTANTIATE_TEST_SUITE_P(Segment, OnPhantom,
                          testing::Values(PhantomCase{"Across40", 5.0, 0.1, 0.0, 0.3, 0.02, 0.02},
                                          PhantomCase{"BeamHardening", 5.0, 0.1, 0.0, 0.3, 0.02, 0.02, 0.2},
+                                         PhantomCase{"Rings", 5.0, 0.1, 0.0, 0.3, 0.02, 0.02, 0.0, 0.1},
+                                         PhantomCase{"NoiseOfAThird", 5.0, 0.3, 0.0, 0.3, 0.02, 0.02},
                                          PhantomCase{"Across20", 10.0, 0.1, 0.0, 0.3, 0.04, 0.05},
                                          PhantomCase{"Across14", 14.0, 0.1, 0.0, 0.3, 0.06, 0.05},
                                          PhantomCase{"Across8", 25.0, 0.1, 0.0, 0.3, 0.09, 0.12},
