@@ -18,7 +18,9 @@ constexpr double most_misfit = 0.15;      // of the contrast, beside the noise
 constexpr double least_borne_out = 0.4;   // of what is seen of a ball's shell
 constexpr double least_separation = 0.7;  // of two balls, over the sum of their radii
 
-/// Radius of a cone on its bead: the widest neck and its blur; some 32° of a bead forty voxels across.
+constexpr double cone_share = 0.53;  // of the typical radius, as long as the blur is not known: 32°
+
+/// Radius of a cone on its bead: the widest neck and its blur.
 double cone_for(double radius, double blur) {
   constexpr double widest = 0.485, blurs = 1.15, most = 0.57;  // of the typical radius
   return std::min(widest * radius + blurs * blur, most * radius);
@@ -103,7 +105,7 @@ std::vector<BallFit> coarse_fits(const Volume& volume, const std::vector<GreyBal
   FitSetting setting;
   setting.half_width = std::max(std::min(3.0, 0.4 * radius), 0.3 * radius);
   const double cone_gap = 2.0 * cutoff * radius + 2.0;
-  setting.cone = cone_for(radius, setting.blur);
+  setting.cone = cone_share * radius;
   setting.stride = stride_for(radius, setting.half_width);
   setting.tolerance = 0.05;
   const auto first = fit_round(volume, balls, search.container, setting, cone_gap, "first fits");

@@ -220,6 +220,8 @@ std::shared_ptr<const Rings> find_rings(const Volume& volume, std::span<const Gr
     if (shared[n % rings.steps].all_voxels() < least_voxels) grey = std::numeric_limits<float>::quiet_NaN();
   }
   rings.rms = std::sqrt(squares / voxels);
+  constexpr double least_share = 0.14;  // of the noise; fainter ones cost less than what is not known of them
+  if (rings.rms < least_share * std::sqrt(in_each.noise)) return nullptr;
   return std::make_shared<const Rings>(std::move(rings));
 }
 

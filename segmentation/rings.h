@@ -27,7 +27,7 @@ struct Rings {
 /// outer part) leave beside their means: a part that all slices share, with means and rings fitted together
 /// by least squares, and one of each slice. Either is told from noise by its covariance between every other
 /// ball and the rest, must be five standard errors of it, and is shrunk towards zero as noise asks (Wiener).
-/// Nothing where neither shows.
+/// Nothing where neither shows, or where both are fainter than a seventh of the noise.
 std::shared_ptr<const Rings> find_rings(const Volume& volume, std::span<const GreyBall> balls, double margin);
 
 }  // namespace pendular
