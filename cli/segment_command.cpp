@@ -173,7 +173,7 @@ void add_segment(CLI::App& app) {
       ->check(CLI::IsMember({"auto", "bright", "dark"}));
   command
       ->add_option("--min-diameter-um", options->min_diameter_um,
-                   "Leave out beads smaller than this; without it, than 0.4 of the typical one")
+                   "Leave out beads smaller than this; without it, than a quarter of the typical one")
       ->check(CLI::PositiveNumber);
   command->callback([options] { run(*options); });
 }

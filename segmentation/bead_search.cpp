@@ -203,7 +203,7 @@ bool may_refine(const Volume& volume) {
 
 BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<double> least_radius,
                         const BallShare& balls_among) {
-  constexpr double least_share = 0.4;
+  constexpr double least_share = 0.25;
   BeadSearch search = search_bodies(volume, tone, balls_among);
   if (may_refine(volume) && !(well_resolved(search) && looks_like_balls(search))) {
     BeadSearch finer = search_bodies(resampled(volume, {2.0, 2.0, 2.0}), tone,

@@ -40,7 +40,7 @@ bool may_refine(const Volume& volume);
 /// greater: the share `balls_among` its bodies, and the share of its volume that their inscribed balls fill;
 /// judged where grey values vary most. Volumes that may be refined are also looked at on finer grids, down to
 /// half a voxel (by cubics), where nothing looks like balls or beads are still too small. `least_radius`
-/// (voxels): leave out what is smaller; without it, what is below 0.4 of the typical radius.
+/// (voxels): leave out what is smaller; without it, what is below a quarter of the typical radius.
 BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<double> least_radius,
                         const BallShare& balls_among);
 

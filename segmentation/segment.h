@@ -14,7 +14,7 @@ namespace pendular {
 struct SegmentOptions {
   double cutoff = 0.064;                 ///< candidate bridges have gaps below cutoff × mean diameter
   BeadTone tone = BeadTone::automatic;   ///< of the beads against what surrounds them
-  std::optional<double> least_diameter;  ///< m; none: 0.4 of the typical one
+  std::optional<double> least_diameter;  ///< m; none: a quarter of the typical one
   std::optional<BridgeOptions> bridges;  ///< look for polymer between candidates
 };
 

@@ -84,6 +84,24 @@ INSTANTIATE_TEST_SUITE_P(Segment, OnPhantom,
                                          PhantomCase{"BrightPolymer", 8.0, 0.1, 0.0, 0.45, 0.05, 0.05}),
                          [](const auto& which) { return which.param.name; });
 
+/// Down to half of the mean.
+TEST(Segment, FindsEveryBeadWhereDiametersVaryByAFifth) {
+  Sample sample = test::small_sample();
+  sample.beads.diameter_sd = 0.2 * sample.beads.diameter;
+  const Packing packing = generate_packing(sample, 3);
+  const auto smallest =
+      std::min_element(packing.beads.begin(), packing.beads.end(),
+                       [](const Bead& a, const Bead& b) { return a.diameter < b.diameter; });
+  ASSERT_LT(smallest->diameter, 0.6 * sample.beads.diameter);
+  sample.phantom.noise = 0.1;
+  const Volume volume = make_phantom(packing, sample.phantom, 1);
+  const Segmentation found = segment(volume);
+  const test::Comparison result = test::compare(packing.beads, found.beads, volume.spacing);
+  EXPECT_EQ(result.missed, 0);
+  EXPECT_EQ(result.invented, 0);
+  EXPECT_LT(std::abs(result.diameter_bias), 0.05);
+}
+
 TEST(Segment, LabelsBelongToTheNearestBall) {
   const std::vector<test::TrueBall> balls = {
       {Vec3(20, 20, 20), 9.0}, {Vec3(40, 20, 20), 10.0}, {Vec3(30, 38, 22), 9.5}};
