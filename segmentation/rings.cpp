@@ -191,6 +191,13 @@ Rings no_rings(const Volume& volume) {
 
 std::shared_ptr<const Rings> find_rings(const Volume& volume, std::span<const GreyBall> balls,
                                         double margin) {
+  // Whether there are any, some of the balls tell, in a fraction of the time.
+  constexpr std::size_t enough = 1000;
+  if (balls.size() >= 2 * enough) {
+    std::vector<GreyBall> some;
+    for (std::size_t n = 0; n < balls.size(); n += balls.size() / enough) some.push_back(balls[n]);
+    if (!find_rings(volume, some, margin)) return nullptr;
+  }
   Rings rings = no_rings(volume);
   std::vector<Core> cores(balls.size());
   with_pixels(volume, [&](auto pixels) {
