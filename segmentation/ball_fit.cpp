@@ -174,6 +174,7 @@ Equations equations(const std::vector<ShellVoxel>& voxels, const GreyBall& ball,
 /// What errors of the known grey values add to the parameters' covariance: each shifts them by N⁻¹ Jᵀ e.
 Normal covariance_of(const std::vector<GreyAt>& errors, const std::vector<ShellVoxel>& voxels,
                      const GreyBall& ball, const Parameters& q, const Normal& inverse) {
+  if (errors.empty()) return Normal::Zero();
   Eigen::Matrix<double, 7, Eigen::Dynamic> sums =
       Eigen::Matrix<double, 7, Eigen::Dynamic>::Zero(7, static_cast<Eigen::Index>(errors.size()));
   for (const ShellVoxel& voxel : voxels) {
