@@ -122,6 +122,7 @@ const std::vector<StrainsKey>& strains_keys() {
   static const std::vector<StrainsKey> keys = {
       {"compression.unload_at", [](Sample& s) -> std::vector<double>& { return s.compression.unload_at; }},
       {"compression.hold_at", [](Sample& s) -> std::vector<double>& { return s.compression.hold_at; }},
+      {"compression.frame_at", [](Sample& s) -> std::vector<double>& { return s.compression.frame_at; }},
   };
   return keys;
 }

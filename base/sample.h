@@ -75,6 +75,7 @@ struct Sample {
     std::optional<double> hold_time;    ///< s; overrides `hold`
     double rows_per_strain = 5000.0;    ///< rows of curve.csv per unit strain
     double frames = 20.0;               ///< frames written, evenly in strain; 0: none
+    std::vector<double> frame_at;       ///< strains at which further frames are written, rising
   } compression;
 
   /// What frames show beside where the beads are; `pendular render` wants all but the stress.

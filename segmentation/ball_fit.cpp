@@ -109,16 +109,12 @@ Shell shell_of(std::span<const T> pixels, const Volume& volume, const GreyBall& 
         const double square = p.squaredNorm();
         if (square < inner * inner || square > outer * outer || all++ % setting.stride != 0) continue;
         if (!inside(i, 0) || !inside(j, 1) || !inside(k, 2) || hidden(p, std::sqrt(square))) continue;
-        const std::array voxel{static_cast<std::size_t>(i), static_cast<std::size_t>(j),
-                               static_cast<std::size_t>(k)};
-        const double ring = setting.rings ? setting.rings->at(voxel[0], voxel[1], voxel[2]) : 0.0;
-        if (std::isnan(ring)) continue;
+        double grey = grey_at(pixels, volume, setting.rings, i, j, k);
+        if (std::isnan(grey)) continue;
         ++free;
-        const std::size_t n = (voxel[2] * volume.size[1] + voxel[1]) * volume.size[0] + voxel[0];
-        auto grey = static_cast<float>(static_cast<double>(pixels[n]) - ring);
-        if (known) grey -= static_cast<float>(known(ball.centre + p));
-        shell.samples.push_back(
-            {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), grey});
+        if (known) grey -= known(ball.centre + p);
+        shell.samples.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()),
+                                 static_cast<float>(p.z()), static_cast<float>(grey)});
       }
     }
   shell.free_share = all ? static_cast<double>(free * setting.stride) / static_cast<double>(all) : 0.0;

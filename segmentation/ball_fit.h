@@ -65,13 +65,12 @@ struct FitSetting {
 
 /// Fits ball `own` of `balls` to the grey values of its shell |r − R| < half_width by Levenberg–Marquardt:
 /// centre, radius, contrast, background and, if asked, blur, from where `balls` has them; slopes stay. Left
-/// out are the cones towards neighbours, voxels nearer than half_width to their surfaces, and voxels as near
-/// to the container, and where rings are not known. Where the grey values of all
-/// neighbours and of the polymer are `known`, they are subtracted, of the neighbours only their insides are
-/// left out, and errors of what is known add to those of the ball. With `drop_foreign` also the 96ths of the
-/// sphere in which the mean residual, within the ball or around it, is more than 4.5 times what such means
-/// usually are: there is something that nobody told of, as a wall, polymer, a pore, or a bead whose centre is
-/// not in the picture.
+/// out are the cones towards neighbours, voxels nearer than half_width to their surfaces or to the container,
+/// and voxels whose rings are not known. Where the grey values of all neighbours and of the polymer are
+/// `known`, they are subtracted, of the neighbours only their insides are left out, and errors of what is
+/// known add to those of the ball. With `drop_foreign` also the 96ths of the sphere in which the mean
+/// residual, within the ball or around it, is more than 4.5 times what such means usually are: there is
+/// something that nobody told of, as a wall, polymer, a pore, or a bead whose centre is not in the picture.
 BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::size_t own,
                  std::span<const Neighbour> neighbours, const std::optional<Container>& container,
                  const FitSetting& setting, const KnownGrey& known = {});

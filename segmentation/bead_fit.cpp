@@ -4,10 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/interrupt.h"
+#include "base/batches.h"
 #include "base/median.h"
-#include "base/parallel.h"
-#include "base/progress.h"
 #include "segmentation/level_field.h"
 
 namespace pendular {
@@ -153,18 +151,9 @@ std::vector<BallFit> fit_all(const Volume& volume, const std::vector<GreyBall>& 
                              const FitSetting& setting, const std::string& name,
                              const std::function<KnownGrey(std::size_t)>& known) {
   std::vector<BallFit> fits(balls.size());
-  Progress progress(name, static_cast<double>(balls.size()));
-  constexpr std::size_t batch = 64;
-  for (std::size_t first = 0; first < balls.size(); first += batch) {
-    stop_if_interrupted();
-    const std::size_t last = std::min(balls.size(), first + batch);
-    for_blocks(last - first, 1, [&](std::size_t n, std::size_t) {
-      const std::size_t own = first + n;
-      fits[own] =
-          fit_ball(volume, balls, own, neighbours[own], container, setting, known ? known(own) : KnownGrey());
-    });
-    progress.update(static_cast<double>(last));
-  }
+  for_batches(name, balls.size(), 64, [&](std::size_t n) {
+    fits[n] = fit_ball(volume, balls, n, neighbours[n], container, setting, known ? known(n) : KnownGrey());
+  });
   return fits;
 }
 

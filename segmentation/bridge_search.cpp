@@ -4,9 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "base/interrupt.h"
-#include "base/parallel.h"
-#include "base/progress.h"
+#include "base/batches.h"
 #include "segmentation/neck_injection.h"
 
 namespace pendular {
@@ -70,17 +68,9 @@ std::vector<std::optional<NeckEvidence>> evidence_of(const Volume& volume, const
   const NeckTemplates templates(pairs, knowledge.blur);
   const auto near = near_of(balls, pairs);
   std::vector<std::optional<NeckEvidence>> found(pairs.size());
-  Progress progress(name, static_cast<double>(pairs.size()));
-  constexpr std::size_t batch = 256;
-  for (std::size_t first = 0; first < pairs.size(); first += batch) {
-    stop_if_interrupted();
-    const std::size_t last = std::min(pairs.size(), first + batch);
-    for_blocks(last - first, 1, [&](std::size_t n, std::size_t) {
-      found[first + n] =
-          neck_evidence(volume, balls, pairs[first + n], near[first + n], container, knowledge, templates);
-    });
-    progress.update(static_cast<double>(last));
-  }
+  for_batches(name, pairs.size(), 256, [&](std::size_t n) {
+    found[n] = neck_evidence(volume, balls, pairs[n], near[n], container, knowledge, templates);
+  });
   return found;
 }
 

@@ -96,17 +96,13 @@ Crevice crevice_of(std::span<const T> pixels, const Volume& volume, std::span<co
         if (row >= made.high || column >= made.wide || u > half_here + kInside * blur) continue;
         all += 1.0;
         if (!elsewhere.in_picture(i, j, k) || elsewhere(p)) continue;
-        const std::array voxel{static_cast<std::size_t>(i), static_cast<std::size_t>(j),
-                               static_cast<std::size_t>(k)};
-        const double ring = rings ? rings->at(voxel[0], voxel[1], voxel[2]) : 0.0;
-        if (std::isnan(ring)) continue;
+        const double grey = grey_at(pixels, volume, rings, i, j, k);
+        if (std::isnan(grey)) continue;
         seen += 1.0;
         const BallProfile pa = ball_profile(ra, a.radius, blur), pb = ball_profile(rb, b.radius, blur);
-        const std::size_t n = (voxel[2] * volume.size[1] + voxel[1]) * volume.size[0] + voxel[0];
         Cell& cell = crevice.cells[row * made.wide + column];
         cell.voxels += 1.0;
-        cell.residual += static_cast<double>(pixels[n]) - ring - background - a.contrast * pa.value -
-                         b.contrast * pb.value;
+        cell.residual += grey - background - a.contrast * pa.value - b.contrast * pb.value;
         cell.by_radius += a.contrast * pa.by_radius + b.contrast * pb.by_radius;
         cell.by_blur += a.contrast * pa.by_blur + b.contrast * pb.by_blur;
       }

@@ -48,12 +48,10 @@ Part part_about(const Volume& volume, std::span<const GreyBall> balls, const Bal
   with_pixels(volume, [&](auto all) {
     for (std::size_t k = 0; k < size[2]; ++k)
       for (std::size_t j = 0; j < size[1]; ++j)
-        for (std::size_t i = 0; i < size[0]; ++i) {
-          const std::size_t x = first[0] + i, y = first[1] + j, z = first[2] + k;
-          pixels.push_back(static_cast<float>(all[(z * volume.size[1] + y) * volume.size[0] + x]));
-          if (const double ring = rings ? rings->at(x, y, z) : 0.0; !std::isnan(ring))
-            pixels.back() -= static_cast<float>(ring);
-        }
+        for (std::size_t i = 0; i < size[0]; ++i)
+          pixels.push_back(
+              static_cast<float>(grey_at(all, volume, rings, static_cast<long>(first[0] + i),
+                                         static_cast<long>(first[1] + j), static_cast<long>(first[2] + k))));
   });
   part.volume.pixels = std::move(pixels);
   return part;

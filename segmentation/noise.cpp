@@ -42,13 +42,7 @@ LagSums core_sums(std::span<const T> pixels, const Volume& volume, const GreyBal
         if (x < 0 || y < 0 || z < 0 || x >= static_cast<long>(volume.size[0]) ||
             y >= static_cast<long>(volume.size[1]) || z >= static_cast<long>(volume.size[2]))
           continue;
-        double grey = static_cast<double>(
-            pixels[(static_cast<std::size_t>(z) * volume.size[1] + static_cast<std::size_t>(y)) *
-                       volume.size[0] +
-                   static_cast<std::size_t>(x)]);
-        if (rings)
-          grey -= rings->at(static_cast<std::size_t>(x), static_cast<std::size_t>(y),
-                            static_cast<std::size_t>(z));
+        const double grey = grey_at(pixels, volume, rings, x, y, z);
         if (std::isnan(grey)) continue;
         at(i, j, k) = grey;
         n += 1.0;

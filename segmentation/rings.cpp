@@ -181,7 +181,7 @@ Rings no_rings(const Volume& volume) {
   rings.steps = static_cast<std::size_t>(kStepsPerVoxel * std::hypot(x, y)) + 1;
   for (std::size_t j = 0; j < volume.size[1]; ++j)
     for (std::size_t i = 0; i < volume.size[0]; ++i)
-      rings.step.push_back(static_cast<std::uint16_t>(
+      rings.step.push_back(static_cast<std::uint32_t>(
           kStepsPerVoxel * std::hypot(static_cast<double>(i) - x, static_cast<double>(j) - y)));
   rings.grey.assign(rings.steps * volume.size[2], 0.0F);
   return rings;

@@ -13,7 +13,7 @@ namespace pendular {
 /// slice and on its distance from the axis alone, in steps of a quarter of a voxel.
 struct Rings {
   std::size_t width = 0, steps = 0;  ///< voxels along x; distances
-  std::vector<std::uint16_t> step;   ///< of each voxel of a slice
+  std::vector<std::uint32_t> step;   ///< of each voxel of a slice
   std::vector<float> grey;           ///< of each distance, slice by slice; NaN where no core tells
   double rms = 0.0;                  ///< of them, grey values
 
@@ -22,6 +22,15 @@ struct Rings {
     return static_cast<double>(grey[k * steps + step[j * width + i]]);
   }
 };
+
+/// The grey value of a voxel of the volume without its ring, if there are any; NaN where that is not known.
+template <typename T>
+double grey_at(std::span<const T> pixels, const Volume& volume, const Rings* rings, long i, long j, long k) {
+  const auto x = static_cast<std::size_t>(i), y = static_cast<std::size_t>(j),
+             z = static_cast<std::size_t>(k);
+  const auto grey = static_cast<double>(pixels[(z * volume.size[1] + y) * volume.size[0] + x]);
+  return rings ? grey - rings->at(x, y, z) : grey;
+}
 
 /// Rings about the middle of the picture, from what the cores of the balls (all but `margin` voxels of their
 /// outer part) leave beside their means: a part that all slices share, with means and rings fitted together
