@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <memory>
 
 #include "base/error.h"
@@ -14,26 +15,70 @@
 namespace pendular::cli {
 namespace {
 
+constexpr std::size_t kLeastBeads = 10;
+
 struct Options {
   Common common;
   fs::path before, after, pictures;
-  std::optional<double> strain;
-  MatchOptions match;
+  TrackOptions track;
 };
+
+nlohmann::ordered_json in_um(const Vec3& v) {
+  return {1e6 * v.x(), 1e6 * v.y(), 1e6 * v.z()};
+}
+
+nlohmann::ordered_json to_json(const Registration& registration) {
+  const Eigen::Matrix3d& r = registration.motion.rotation;
+  const Eigen::AngleAxisd turn(r);
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (int row = 0; row < 3; ++row) rows.push_back({r(row, 0), r(row, 1), r(row, 2)});
+  return {{"meaning", "after = scale * rotation * before + shift"},
+          {"rotation", rows},
+          {"angle_deg", turn.angle() * 180.0 / M_PI},
+          {"axis", {turn.axis().x(), turn.axis().y(), turn.axis().z()}},
+          {"shift_um", in_um(registration.motion.shift)},
+          {"scale", registration.motion.scale},
+          {"scale_sigma", registration.scale_sigma},
+          {"scale_from", to_string(registration.scale_from)},
+          {"beads", registration.beads},
+          {"rms_residual_um", 1e6 * registration.rms_residual},
+          {"rms_residual_even_um", 1e6 * registration.rms_residual_even},
+          {"axial_stretch", registration.axial_stretch}};
+}
+
+nlohmann::ordered_json band_of(const Motion& motion) {
+  if (!motion.band.found) return nullptr;
+  const Vec3& normal = motion.band.normal;
+  return {{"normal", {normal.x(), normal.y(), normal.z()}},
+          {"point_um", in_um(motion.band.point)},
+          {"thickness_um", 1e6 * motion.band.thickness},
+          {"contrast", motion.band.contrast},
+          {"angle_to_axis_deg", motion.band.angle_to_axis * 180.0 / M_PI}};
+}
+
+/// How many beads, and which.
+nlohmann::ordered_json listed(const std::vector<Bead>& beads, const std::vector<int>& places) {
+  nlohmann::ordered_json ids = nlohmann::ordered_json::array();
+  for (const int place : places) ids.push_back(beads[static_cast<std::size_t>(place)].id);
+  return {{"count", places.size()}, {"ids", ids}};
+}
 
 nlohmann::ordered_json summary(const std::vector<Bead>& before, const std::vector<Bead>& after,
                                const Motion& motion, const Provenance& provenance) {
-  nlohmann::ordered_json band = nullptr;
-  if (motion.band.found)
-    band = {
-        {"normal", {motion.band.normal.x(), motion.band.normal.y(), motion.band.normal.z()}},
-        {"point_um", {1e6 * motion.band.point.x(), 1e6 * motion.band.point.y(), 1e6 * motion.band.point.z()}},
-        {"thickness_um", 1e6 * motion.band.thickness},
-        {"contrast", motion.band.contrast},
-        {"angle_to_axis_deg", motion.band.angle_to_axis * 180.0 / M_PI}};
-  return {
-      {"beads_before", before.size()}, {"beads_after", after.size()}, {"matched", motion.matches.size()},
-      {"strain", motion.strain},       {"shear_band", band},          {"provenance", to_json(provenance)}};
+  std::vector<int> loose;
+  for (std::size_t k = 0; k < motion.matches.size(); ++k)
+    if (motion.loose[k]) loose.push_back(motion.matches[k].before);
+  return {{"beads_before", before.size()},
+          {"beads_after", after.size()},
+          {"matched", motion.matches.size()},
+          {"strain", motion.strain},
+          {"nothing_moved", motion.still},
+          {"registration", to_json(motion.registration)},
+          {"loose", listed(before, loose)},
+          {"lost", listed(before, motion.lost)},
+          {"new", listed(after, motion.fresh)},
+          {"shear_band", band_of(motion)},
+          {"provenance", pendular::to_json(provenance)}};
 }
 
 viz::Frame frame_of(const std::vector<Bead>& before, const Motion& motion, const Specimen& specimen) {
@@ -71,32 +116,53 @@ void draw(const Options& options, const std::vector<Bead>& before, const std::ve
     const viz::View& view = viz::view_named(name);
     viz::write_png(options.pictures / (std::string(name) + ".png"),
                    viz::draw_scene(display, view, frame, stage, viz::colour_range(view, frame, stage)),
-                   to_json(origin).dump());
+                   pendular::to_json(origin).dump());
   }
+}
+
+std::vector<Bead> read_scan(const fs::path& path) {
+  auto beads = read_beads(path);
+  if (beads.size() < kLeastBeads)
+    bad_input("{}: found {} beads, expected at least {}", path.string(), beads.size(), kLeastBeads);
+  return beads;
+}
+
+void report(const Options& options, const std::vector<Bead>& before, const std::vector<Bead>& after,
+            const Motion& motion) {
+  const Registration& registration = motion.registration;
+  say(fmt::format(
+      "{} of {} beads found again among {}, turned by {:.2f} degrees, scale {:.5f} +- {:.5f} (by {}), at "
+      "a strain of {:.2f} %{}",
+      motion.matches.size(), before.size(), after.size(),
+      Eigen::AngleAxisd(registration.motion.rotation).angle() * 180.0 / M_PI, registration.motion.scale,
+      registration.scale_sigma, to_string(registration.scale_from), 100.0 * motion.strain,
+      motion.band.found ? fmt::format(", a shear band at {:.0f} degrees to the axis",
+                                      motion.band.angle_to_axis * 180.0 / M_PI)
+                        : ""));
+  if (motion.still)
+    warn(fmt::format(
+        "{}: nothing moved since {}: displacements of {:.3g} um rms, no more than errors (the same scan?)",
+        options.after.string(), options.before.string(), 1e6 * registration.rms_residual));
 }
 
 void run(const Options& options) {
   apply(options.common);
   require_writable(options.common.out);
-  const auto before = read_beads(options.before), after = read_beads(options.after);
+  const auto before = read_scan(options.before), after = read_scan(options.after);
   const Provenance origin = provenance(options.common, {options.before, options.after});
   const Motion motion = [&] {
     try {
-      return motion_of(before, after, match_beads(before, after, options.match),
-                       options.strain.value_or(shortening(before, after)));
+      return follow_beads(before, after, options.track);
     } catch (const BadInput& error) {
       throw BadInput(fmt::format("{}: {}", options.after.string(), error.what()));
     }
   }();
   write_motion(options.common.out, before, after, motion, origin);
-  if (!options.pictures.empty()) draw(options, before, after, motion, origin);
+  if (!options.pictures.empty())
+    draw(options, before, registered(after, motion.registration.motion), motion, origin);
   write_text(fs::path(options.common.out).replace_extension(".json"),
              summary(before, after, motion, origin).dump(2) + "\n");
-  say(fmt::format("{} of {} beads found again among {}, at a strain of {:.2f} %{}", motion.matches.size(),
-                  before.size(), after.size(), 100.0 * motion.strain,
-                  motion.band.found ? fmt::format(", a shear band at {:.0f} degrees to the axis",
-                                                  motion.band.angle_to_axis * 180.0 / M_PI)
-                                    : ""));
+  report(options, before, after, motion);
 }
 
 }  // namespace
@@ -106,17 +172,28 @@ void add_track(CLI::App& app) {
   auto* command = app.add_subcommand(
       "track",
       "Beads of one specimen followed from a scan to the next: displacement and local strain.\n"
-      "The table serves `pendular diagnose` as an observation of kind displacements. Scans may be shifted\n"
-      "against each other by less than --reach, not turned. A summary goes beside the table as .json.");
-  command->add_option("before", options->before, "Beads of the first scan (beads.csv)")->required();
-  command->add_option("after", options->after, "Beads of the second scan (beads.csv)")->required();
+      "The second scan may be turned by any angle, shifted, and drifted in scale by some 2 %: its frame is\n"
+      "found from the beads alone. Displacements are in the frame of the first scan, whose z axis is the\n"
+      "specimen's, once rotation, shift and scale are removed. Beads' diameters tell the scale from strain\n"
+      "where both tables state their errors, else --strain, else a lateral expansion of 0.3 +- 0.2 of the\n"
+      "compression. The table serves `pendular diagnose` as an observation of kind displacements; its "
+      "column\n"
+      "state says which beads came loose. A summary goes beside it as .json: the registration, and the "
+      "beads\n"
+      "that are loose, lost or new. Status 3 where the second scan shows another specimen, or this one in a\n"
+      "mirror.");
+  command->add_option("before", options->before, "Beads of the first scan (beads.csv), ten or more")
+      ->required();
+  command->add_option("after", options->after, "Beads of the second scan (beads.csv), ten or more")
+      ->required();
   command
-      ->add_option("--strain", options->strain,
-                   "Engineering strain between the scans; without it, from the beads' extent along z")
+      ->add_option("--strain", options->track.strain,
+                   "Engineering strain between the scans; without it, that of the beads at either end")
       ->check(CLI::Range(-0.5, 0.9));
   command
-      ->add_option("--reach", options->match.reach,
-                   "How far beads may be from where an even compression brings them, in mean diameters")
+      ->add_option(
+          "--reach", options->track.match.reach,
+          "How far beads may be from where the even part of the motion brings them, in mean diameters")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 20.0));
   command->add_option("--pictures", options->pictures,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "packing/packing.h"
@@ -13,23 +14,21 @@ struct BeadMatch {
 };
 
 struct MatchOptions {
-  double reach = 2.5;  ///< how far beads may be from where an even compression brings them, mean diameters
+  double reach = 2.5;  ///< how far beads may be from where the even motion brings them, mean diameters
 };
 
 /// Beads of one specimen before and after it was deformed, matched by their surroundings and diameters;
-/// sorted by `before`.
+/// sorted by `before`. Both scans are in one frame (register_scans); `even` is the linear motion from the
+/// first to the second that fits best.
 ///
 /// A bead's constellation, the vectors to the beads within two diameters, is looked for about every bead of
-/// the other scan within reach of where an even compression between the two scans' extents would bring it. A
-/// random place has each neighbour by chance with a probability of a few per cent, so that half a
-/// constellation is beyond chance. Beads whose surroundings are torn apart (shear bands) are found in a
-/// second round, where the motion of matched neighbours, extended linearly, leads to; last, beads that have
-/// come loose, where a single one of their diameter is left within a diameter of there. A match that departs
-/// from its neighbours' motion by more than half a diameter, or that two beads claim, is dropped.
-///
-/// Scans may be shifted by less than the reach, not turned. BadInput where less than a tenth of the beads is
-/// found again: other specimens, or one turned between the scans.
+/// the other scan within reach of where the even motion brings it. A random place has each neighbour by
+/// chance with a probability of a few per cent, so that half a constellation is beyond chance. Beads whose
+/// surroundings are torn apart (shear bands) are found in a second round, where the motion of matched
+/// neighbours, extended linearly, leads to; last, beads that have come loose, where a single one of their
+/// diameter is left within a diameter of there. A match that departs from its neighbours' motion by more than
+/// half a diameter, or that two beads claim, is dropped.
 std::vector<BeadMatch> match_beads(const std::vector<Bead>& before, const std::vector<Bead>& after,
-                                   const MatchOptions& options = {});
+                                   const Eigen::Affine3d& even, const MatchOptions& options = {});
 
 }  // namespace pendular
