@@ -1,5 +1,6 @@
 #include "dem_core/compress.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -39,6 +40,16 @@ std::vector<std::int64_t> bead_ids(const Packing& packing) {
   return ids;
 }
 
+/// Strains at which frames are written, rising: `frames` of them evenly from zero, the last at the end of the
+/// test aside, and those of frame_at.
+std::vector<double> frame_strains(const Sample::Compression& asked) {
+  std::vector<double> strains = asked.frame_at;
+  for (int k = 0; k < static_cast<int>(std::ceil(asked.frames)); ++k)
+    strains.push_back(asked.max_strain / asked.frames * k);
+  std::sort(strains.begin(), strains.end());
+  return strains;
+}
+
 /// One compression test from its first to its last step.
 class Test {
  public:
@@ -49,6 +60,7 @@ class Test {
         evolution_(evolution),
         folder_(folder),
         ids_(std::move(ids)),
+        frame_strains_(frame_strains(sample.compression)),
         program_(state.simulation, sample),
         stepper_(state.simulation) {
     const Simulation& s = state_.simulation;
@@ -168,9 +180,9 @@ class Test {
   }
 
   void write_due_frames() {
-    if (sample_.compression.frames == 0.0) return;
-    const double interval = sample_.compression.max_strain / sample_.compression.frames;
-    if (state_.simulation.strain() >= interval * state_.frames_written) write_next_frame();
+    const auto written = static_cast<std::size_t>(state_.frames_written);
+    if (written < frame_strains_.size() && state_.simulation.strain() >= frame_strains_[written])
+      write_next_frame();
   }
 
   void write_next_frame() {
@@ -193,6 +205,7 @@ class Test {
   const BondEvolution& evolution_;
   fs::path folder_;
   std::vector<std::int64_t> ids_;
+  std::vector<double> frame_strains_;
   PlatenProgram program_;
   Stepper stepper_;
   int steps_per_row_ = 1;

@@ -91,8 +91,10 @@ void book(Store& store, const std::string& hash, const RunRequest& request,
           const std::optional<Effort>& effort) {
   const fs::path folder = store.run_folder(hash);
   fs::remove(folder / "checkpoint.previous");  // only slow runs have one
-  if (!request.keep_all)
-    for (const char* name : {"frames", "checkpoint"}) fs::remove_all(folder / name);
+  if (!request.keep_all) {
+    fs::remove_all(folder / "checkpoint");
+    if (request.sample.compression.frame_at.empty()) fs::remove_all(folder / "frames");
+  }
   store.finish(hash, effort);
 }
 

@@ -25,7 +25,7 @@ struct RunRequest {
   Sample sample;
   PackingSource packing;
   std::uint64_t seed = 1;
-  bool keep_all = false;  ///< frames and checkpoint too, not only curve, events and result
+  bool keep_all = false;  ///< frames and checkpoint too; else frames only where frame_at names their strains
 };
 
 /// The request as JSON text: the same for equal requests, whatever machine, folder or file name; with the
