@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "blind/instruments.h"
 #include "blind/mechanism.h"
+#include "blind/scans.h"
 #include "dem_core/run_length.h"
 #include "effects/list.h"
 #include "packing/tables.h"
@@ -16,6 +17,11 @@ namespace pendular::blind {
 namespace {
 
 using nlohmann::ordered_json;
+
+/// Of every file of a case: it must not tell the truth.
+Provenance case_provenance() {
+  return {program_version(), "pendular blind make", 0, {}};
+}
 
 const SharedPacking& packing_of(const Split& split, const CasePlan& plan) {
   return split.packings[plan.packing];
@@ -81,17 +87,47 @@ std::string experiment_toml(const Split& split, const CasePlan& plan) {
     const bool of_polymer = kind == "bridge_stiffness" || kind == "bridge_diameters" || kind == "bridge_gaps";
     text += observation_toml(kind, kind, of_polymer ? "" : "A_beads.csv");
   }
+  if (plan.scanned) text += observation_toml("displacements", "displacements", "A_beads.csv");
+  if (plan.bridges_at_rest) text += observation_toml("bridges", "bridges_rest", "A_beads.csv");
+  if (plan.bridges_under_load)
+    text += observation_toml("bridges", "bridges_load", "A_beads.csv") +
+            fmt::format("strain = {}\n", packing.scan_strain);
   return text;
 }
 
-/// A specimen of the case, tested; its measured beads go to the case's folder.
-TrueTest tested(const CaseFolders& folders, const Split& split, const CasePlan& plan, const char* name,
-                const Sample& believed, std::uint64_t number, const fs::path& part) {
+/// A specimen of the case, as it is reported and measured, and its test.
+struct Tested {
+  Packing reported;
+  std::vector<Bead> measured;
+  TrueTest test;
+};
+
+/// Its measured beads go to the case's folder.
+Tested tested(const CaseFolders& folders, const Split& split, const CasePlan& plan, const char* name,
+              const Sample& believed, std::uint64_t number, const fs::path& part) {
   const std::uint64_t seed = seed_of(packing_of(split, plan), number);
   const Packing beads = reported_beads(plan, split, believed, seed, number);
-  write_beads(part / fmt::format("{}_beads.csv", name), measured_beads(beads, seed, split),
-              {program_version(), "pendular blind make", 0, {}});
-  return run_truth(plan, split, believed, beads, number, number == 0, folders.work(plan.name) / "run");
+  const auto measured = measured_beads(beads, seed, split);
+  write_beads(part / fmt::format("{}_beads.csv", name), measured, case_provenance());
+  const bool is_a = number == 0;
+  const double scan_at = is_a && plan.scanned ? packing_of(split, plan).scan_strain : 0.0;
+  return {beads, measured,
+          run_truth(plan, split, believed, beads, number, is_a, scan_at, folders.work(plan.name) / "run")};
+}
+
+/// What the scans of A show, into the case's folder.
+void write_scans(const Split& split, const CasePlan& plan, const Tested& a, const fs::path& part,
+                 ordered_json& noise) {
+  const ScannedSpecimen specimen{plan, split, a.reported, a.measured, a.test};
+  const auto write_network = [&](const std::string& name, const std::set<std::pair<int, int>>& standing) {
+    write_bridges(part / (name + ".csv"), a.measured, measured_bridges(specimen, name, standing, noise),
+                  case_provenance());
+  };
+  if (plan.scanned)
+    write_text(part / "displacements.csv",
+               csv_text(followed_beads(specimen, packing_of(split, plan).scan_strain, noise)));
+  if (plan.bridges_at_rest) write_network("bridges_rest", bridges_at_rest(a.test));
+  if (plan.bridges_under_load) write_network("bridges_load", a.test.scan.standing);
 }
 
 }  // namespace
@@ -114,12 +150,13 @@ void make_case(const CaseFolders& folders, const Split& split, const CasePlan& p
   make_folder(done.parent_path());
 
   const SharedPacking& packing = packing_of(split, plan);
-  const TrueTest a = tested(folders, split, plan, "A", believed_a(split, packing), 0, part);
-  std::optional<TrueTest> b;
+  const Tested a = tested(folders, split, plan, "A", believed_a(split, packing), 0, part);
+  std::optional<Tested> b;
   if (plan.short_specimen) b = tested(folders, split, plan, "B", believed_b(split, packing), 1, part);
   ordered_json noise;
-  for (const auto& [name, table] : observe(plan, split, a, b ? &*b : nullptr, noise))
+  for (const auto& [name, table] : observe(plan, split, a.test, b ? &b->test : nullptr, noise))
     write_text(part / (name + ".csv"), csv_text(table));
+  write_scans(split, plan, a, part, noise);
   write_text(part / "sample.toml", sample_text(believed_a(split, packing)));
   write_text(part / "experiment.toml", experiment_toml(split, plan));
 

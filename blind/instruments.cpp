@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/random.h"
 #include "blind/logger.h"
+#include "blind/noise.h"
 #include "dem_core/bond_bodies.h"
 #include "micromechanics/stiffness.h"
 #include "packing/statistics.h"
@@ -25,24 +25,6 @@ constexpr double kBridgeNoise = 0.08;                // of a single bridge's sti
 constexpr std::size_t kGaps = 60, kNecks = 60, kSingleBridges = 20;
 constexpr double kThinnest = 0.6, kThickest = 1.4;  // of the bridges that are tested, over d
 constexpr double um = 1e-6;
-
-/// Noise of one instrument in one case: independent of what is true.
-class Noise {
- public:
-  Noise(std::uint64_t seed, const std::string& instrument) : seed_(seed) {
-    for (const char c : instrument) seed_ = random_bits(seed_, static_cast<unsigned char>(c));
-  }
-  double normal() { return random_normal(seed_, next_++); }
-  double between(double low, double high) { return low + (high - low) * random_uniform(~seed_, next_++); }
-  std::size_t below(std::size_t limit) {
-    return static_cast<std::size_t>(between(0.0, static_cast<double>(limit)));
-  }
-  /// A stated sd over the true one.
-  double misjudged() { return between(0.7, 1.3); }
-
- private:
-  std::uint64_t seed_, next_ = 0;
-};
 
 /// One after the other, of unit variance: white and a part that lasts over some rows.
 class CorrelatedNoise {

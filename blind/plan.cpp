@@ -13,7 +13,8 @@
 namespace pendular::blind {
 namespace {
 
-constexpr double kWeakest = 0.2;         // of an effect's range; below it nothing can be told
+constexpr double kWeakest = 0.2;  // of an effect's range; below it nothing can be told
+constexpr double kCurveAlone = 0.15, kWithNetwork = 0.20, kWithSecond = 0.25;  // shares of the cases
 constexpr double kFarthestOffset = 2.0;  // of a believed value that is not deliberately wrong, in its sd
 constexpr double kWrong = 2.0;           // of one that is
 
@@ -163,12 +164,20 @@ class Truths {
   Deck<std::string> beliefs_, laws_;
 };
 
+/// What an experimenter measured: a curve alone (15 %), with Z and lateral strain (20 %), with a second
+/// specimen besides (25 %), and with a second scan (40 %); from the second level on, each of the rest by
+/// chance.
 void draw_observations(CasePlan& plan, Dice& dice) {
-  plan.short_specimen = dice.chance(0.8);
-  const double rich = dice.between(0.2, 0.9);  // some experiments are poor
-  for (const char* kind : {"coordination", "lateral_strain", "broken_bonds", "bridge_stiffness",
-                           "bridge_diameters", "bridge_gaps"})
-    if (dice.chance(rich)) plan.kinds.push_back(kind);
+  const double level = dice.between(0.0, 1.0);
+  if (level < kCurveAlone) return;
+  plan.kinds = {"coordination", "lateral_strain"};
+  for (const char* kind : {"broken_bonds", "bridge_stiffness", "bridge_diameters", "bridge_gaps"})
+    if (dice.chance(0.5)) plan.kinds.push_back(kind);
+  plan.short_specimen = level >= kCurveAlone + kWithNetwork;
+  plan.scanned = level >= kCurveAlone + kWithNetwork + kWithSecond;
+  const double network = dice.between(0.0, 1.0);
+  plan.bridges_at_rest = plan.scanned && network < 0.5;
+  plan.bridges_under_load = plan.scanned && network < 0.25;
 }
 
 }  // namespace

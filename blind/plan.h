@@ -22,6 +22,8 @@ struct CasePlan {
   std::string law = "paper";              ///< that the truth follows: see laws()
   bool short_specimen = false;            ///< whether B is tested
   std::vector<std::string> kinds;         ///< of observation beside the compressions
+  bool scanned = false;                   ///< A's beads were followed to a second scan
+  bool bridges_at_rest = false, bridges_under_load = false;  ///< the network was measured in these scans
 };
 
 /// The laws that truth may follow, and what they change of the sample.

@@ -98,14 +98,18 @@ void read_shares(Split& split, const TomlPlace& section) {
 
 SharedPacking packing_at(const TomlPlace& section) {
   SharedPacking packing;
-  const std::vector<std::string> known = {"seed", "height_um", "short_height_um", "short_youngs_modulus_pa"};
+  const std::vector<std::string> known = {"seed", "height_um", "short_height_um", "short_youngs_modulus_pa",
+                                          "scan_strain"};
   for (const auto& key : known)
-    if (!table_at(section).contains(key)) bad_input("{}: {} is missing", section.str(), key);
+    if (key != "scan_strain" && !table_at(section).contains(key))
+      bad_input("{}: {} is missing", section.str(), key);
   read_section(section, known, [&](const std::string& key, const auto& place) {
     if (key == "seed")
       packing.seed = whole_at(place);
     else if (key == "short_youngs_modulus_pa")
       packing.short_youngs_modulus = number_between(place, 1.0, 1e12);
+    else if (key == "scan_strain")
+      packing.scan_strain = number_between(place, 1e-3, 0.1);
     else
       (key == "height_um" ? packing.height : packing.short_height) = 1e-6 * number_between(place, 1.0, 1e6);
   });

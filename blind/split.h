@@ -26,6 +26,7 @@ struct SharedPacking {
   double height = 0.0;                ///< of specimen A, m
   double short_height = 0.0;          ///< of specimen B, m
   double short_youngs_modulus = 0.0;  ///< of B's polymer, Pa
+  double scan_strain = 0.015;         ///< platen strain, as read, of A's second scan
 };
 
 /// A family of cases.

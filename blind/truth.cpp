@@ -11,6 +11,7 @@
 #include "effects/list.h"
 #include "packing/bridges.h"
 #include "packing/generate.h"
+#include "packing/polydata.h"
 
 namespace pendular::blind {
 namespace {
@@ -50,6 +51,18 @@ std::uint64_t run_seed(const CasePlan& plan, std::uint64_t number) {
   return random_bits(plan.seed, number) >> 1;
 }
 
+Scan read_scan(const fs::path& path) {
+  constexpr std::int64_t kBond = 0;  // of a frame's lines
+  const PolyTable frame = read_polydata(path);
+  const auto state = integers(frame, false, "state", path);
+  Scan scan;
+  for (const Vec3& moved : vectors(frame, true, "displacement_um", path))
+    scan.displacement.push_back(1e-6 * moved);
+  for (std::size_t k = 0; k < frame.lines.size(); ++k)
+    if (state[k] == kBond) scan.standing.insert(std::minmax(frame.lines[k][0], frame.lines[k][1]));
+  return scan;
+}
+
 /// One test of a case's specimen.
 class Bench {
  public:
@@ -61,11 +74,18 @@ class Bench {
     Sample sample = sample_;
     sample.compression.max_strain = max_strain;
     sample.compression.unload_at = std::move(unload_at);
-    fs::remove_all(scratch_);
-    make_folder(scratch_.parent_path());
-    auto rows = effects::compress_with_effects(beads_, sample, seed_, scratch_, hooks(plan_)).rows;
-    fs::remove_all(scratch_);
-    return rows;
+    return compress(sample);
+  }
+
+  /// The specimen where the strain that is read is the scan's.
+  Scan scan(double read) const {
+    const double true_strain = misread(plan_) ? strain_reading(read, compress(kProbe * read, {})) : read;
+    Sample sample = sample_;
+    sample.compression.frame_at = {true_strain};
+    sample.compression.max_strain = 1.01 * true_strain;
+    Scan scan;
+    compress(sample, &scan);
+    return scan;
   }
 
   /// The strain at which to turn so that the instruments' last row before it reads this one, from a test
@@ -74,15 +94,30 @@ class Bench {
   double turn_reading(double wanted) const {
     const double end = kProbe * wanted, row = 1.0 / sample_.compression.rows_per_strain;
     const auto rows = compress(end, {});
+    return strain_reading(wanted, rows) + row;  // the row in which the platen turns is short of the turn
+  }
+
+ private:
+  /// The true strain at which these rows of a test to kProbe × `wanted` read the wanted one; its end where
+  /// they never do.
+  double strain_reading(double wanted, const std::vector<CurveRow>& rows) const {
+    const double end = kProbe * wanted, row = 1.0 / sample_.compression.rows_per_strain;
     std::size_t k = 0;
     while (k < rows.size() && rows[k].strain < wanted) ++k;
     if (k == 0 || k == rows.size()) return end;
     const double share = (wanted - rows[k - 1].strain) / (rows[k].strain - rows[k - 1].strain);
-    const double middle = end - (static_cast<double>(rows.size() - k) + 0.5 - share) * row;
-    return middle + row;  // a row is a mean, and the one in which the platen turns is short of the turn
+    return end - (static_cast<double>(rows.size() - k) + 0.5 - share) * row;  // a row is a mean
   }
 
- private:
+  std::vector<CurveRow> compress(const Sample& sample, Scan* scan = nullptr) const {
+    fs::remove_all(scratch_);
+    make_folder(scratch_.parent_path());
+    auto rows = effects::compress_with_effects(beads_, sample, seed_, scratch_, hooks(plan_)).rows;
+    if (scan) *scan = read_scan(scratch_ / "frames" / "frame_0000.vtp");
+    fs::remove_all(scratch_);
+    return rows;
+  }
+
   const CasePlan& plan_;
   const Packing& beads_;
   const Sample& sample_;
@@ -127,7 +162,7 @@ Sample true_sample(const CasePlan& plan, const Split& split, Sample believed) {
 }
 
 TrueTest run_truth(const CasePlan& plan, const Split& split, const Sample& believed, const Packing& beads,
-                   std::uint64_t number, bool unload, const fs::path& scratch) {
+                   std::uint64_t number, bool unload, double scan_at, const fs::path& scratch) {
   TrueTest test;
   test.sample = true_sample(plan, split, believed);
   test.sample.compression.frames = 0.0;
@@ -143,6 +178,7 @@ TrueTest run_truth(const CasePlan& plan, const Split& split, const Sample& belie
   const Bench bench(plan, packing, test.sample, seed, scratch);
   std::vector<double> turns;
   if (unload) turns = {misread(plan) ? bench.turn_reading(split.unload_at) : split.unload_at};
+  if (scan_at > 0.0) test.scan = bench.scan(scan_at);
   test.rows = bench.compress((misread(plan) ? kFarBeyond : kBeyond) * split.max_strain, turns);
   return test;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "blind/plan.h"
@@ -22,18 +23,26 @@ std::vector<Bead> measured_beads(const Packing& reported, std::uint64_t seed, co
 /// The sample that is true of a case where this one is believed: with its offsets, its law and its effects.
 Sample true_sample(const CasePlan& plan, const Split& split, Sample believed);
 
+/// A specimen under load, in the order of its beads and bridges.
+struct Scan {
+  std::vector<Vec3> displacement;          ///< of the beads since rest, m
+  std::set<std::pair<int, int>> standing;  ///< pairs of beads that bridges join
+};
+
 /// A specimen that was tested, and what its instruments read, before noise.
 struct TrueTest {
   Sample sample;
   Packing packing;                 ///< that carried the load
   std::vector<BridgeBody> bodies;  ///< of its standing bridges
   std::vector<CurveRow> rows;      ///< strain and stress as read, not beyond the test's last strain
+  Scan scan;                       ///< where the strain that is read is the scan's; empty: none was made
 };
 
-/// Compresses a specimen, given as reported, with all that is withheld, by the simulation itself; `number` tells a case's
-/// specimens apart. Tests end, and unload once where asked, at strains as the instruments read them.
-/// `scratch` is a folder for the runs, which is removed.
+/// Compresses a specimen, given as reported, with all that is withheld, by the simulation itself; `number`
+/// tells a case's specimens apart. Tests end, and unload once where asked, at strains as the instruments read
+/// them. `scratch` is a folder for the runs, which is removed. Where `scan_at` is positive the specimen is
+/// scanned at that strain, as it is read, on its first loading.
 TrueTest run_truth(const CasePlan& plan, const Split& split, const Sample& believed, const Packing& beads,
-                   std::uint64_t number, bool unload, const fs::path& scratch);
+                   std::uint64_t number, bool unload, double scan_at, const fs::path& scratch);
 
 }  // namespace pendular::blind

@@ -13,7 +13,9 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr int kGenerated = 5, kMeasured = 3;  // members of an ensemble
+constexpr int kGenerated = 6, kMeasured = 12;  // members of an ensemble
+constexpr int kDraws = 3;                      // of effects that draw, at each magnitude
+constexpr int kMoreOfScans = 2;  // members and draws of tests that end at a scan, over those of others
 constexpr double kMostBeads = 2000.0, kBankBeads = 1500.0;
 constexpr double kAbout = 1.5;  // of a magnitude that beads show, the largest in the bank
 constexpr double kModulusShare = 0.05, kFractionSd = 0.01;  // of believed inputs of which nothing is stated
@@ -91,42 +93,54 @@ class Planner {
   }
 
   BankPlan plan() {
-    const int members = measured_ ? kMeasured : kGenerated;
-    for (int member = 1; member <= members; ++member) {
-      add({member, "", 0.0, !scaled_});
-      if (scaled_) add({member, "", 0.0, true});
+    members_ = measured_ ? kMeasured : kGenerated;
+    const bool scanned = std::any_of(plan_.conditions.begin(), plan_.conditions.end(), ends_at_scan);
+    for (int member = 1; member <= (scanned ? kMoreOfScans : 1) * members_; ++member) {
+      add({member, "", 0.0, !scaled_, seed_of(member, 0), member > members_});
+      if (scaled_) add({member, "", 0.0, true, seed_of(member, 0), member > members_});
+    }
+    for (const auto& effect : effects::all_effects()) {
+      if (options_.leave_out.contains(effect.id)) plan_.absent[effect.id] = "left out as asked";
+      if (const std::string why = why_inert(effect, plan_.conditions); !why.empty())
+        plan_.absent.emplace(effect.id, why);
+      if (!plan_.absent.contains(effect.id) && !reads_only(effect)) add_effect(effect, scanned);
     }
     int turn = 0;
-    for (const auto& effect : effects::all_effects()) {
-      // What is left out keeps its turns, so that the other runs are those of the whole library.
-      const bool left_out = options_.leave_out.contains(effect.id);
-      if (left_out) plan_.absent[effect.id] = "left out as asked";
-      if (const std::string why = why_inert(effect, plan_.conditions); !why.empty()) {
-        plan_.absent.emplace(effect.id, why);
-      } else if (!reads_only(effect)) {
-        for (double theta : magnitudes_of(effect, options_.levels, experiment_)) {
-          const int member = 1 + turn++ % members;
-          if (!left_out) add({member, effect.id, theta, !scaled_});
-        }
-        ++turn;
-      }
-    }
     for (const auto& [key, sd] : floating_inputs(experiment_)) {
       if (sd <= 0.0) continue;
       // A packing denser than stated may not exist.
       const bool dense = key == "specimen.volume_fraction";
-      for (double sds : {-2.0, dense ? -1.0 : 2.0}) add({1 + turn++ % members, key, sds, !scaled_});
+      for (double sds : {-2.0, dense ? -1.0 : 2.0}) {
+        const int member = 1 + turn++ % members_;
+        add({member, key, sds, !scaled_, seed_of(member, 0)});
+      }
     }
     return std::move(plan_);
   }
 
  private:
+  /// Seeds do not follow the place of an effect in the list: runs stay those of a shorter or longer library.
+  static std::uint64_t seed_of(int member, int draw) {
+    return static_cast<std::uint64_t>(member) + 1000 * static_cast<std::uint64_t>(draw);
+  }
+
+  void add_effect(const effects::Effect& effect, bool scanned) {
+    const int draws = effect.draws ? kDraws : 1;
+    int turn = 0;
+    for (double theta : magnitudes_of(effect, options_.levels, experiment_))
+      for (int draw = 0; draw < (effect.draws && scanned ? kMoreOfScans : 1) * draws; ++draw) {
+        const int member = 1 + turn++ % members_;
+        add({member, effect.id, theta, !scaled_, seed_of(member, draw), draw >= draws});
+      }
+  }
+
   void add(const DesignPoint& point) {
     for (std::size_t c = 0; c < plan_.conditions.size(); ++c) {
+      if (point.scans_only && !ends_at_scan(plan_.conditions[c])) continue;
       Changes changes;
       if (!point.id.empty()) changes[point.id] = point.theta;
-      plan_.requests.push_back(request_of(experiment_, plan_.conditions[c], point.member, changes, folder_,
-                                          point.whole ? 1.0 : plan_.size[c]));
+      plan_.requests.push_back(request_of(experiment_, plan_.conditions[c], point.member, point.seed, changes,
+                                          folder_, point.whole ? 1.0 : plan_.size[c]));
       plan_.runs.push_back({plan_.points.size(), c});
     }
     plan_.points.push_back(point);
@@ -137,6 +151,7 @@ class Planner {
   fs::path folder_;
   BankPlan plan_;
   bool measured_ = true, scaled_ = false;
+  int members_ = kGenerated;
 };
 
 }  // namespace
@@ -168,13 +183,13 @@ BankPlan plan_bank(const Experiment& experiment, const BankOptions& options, con
 }
 
 sweep::RunRequest request_of(const Experiment& experiment, const Condition& condition, int member,
-                             const Changes& changes, const fs::path& beads_folder, double size) {
+                             std::uint64_t seed, const Changes& changes, const fs::path& beads_folder,
+                             double size) {
   const Condition sized = smaller(condition, size);
   sweep::RunRequest request;
   request.sample = changed_condition(experiment, sized, changes, size);
   request.packing = beads_of_member(sized, member, request.sample, beads_folder);
-  request.seed = static_cast<std::uint64_t>(member);
-  request.keep_all = request.sample.compression.frames > 0.0;
+  request.seed = seed;
   return request;
 }
 

@@ -24,12 +24,14 @@ Sample changed_condition(const Experiment& experiment, const Condition& conditio
 /// cent of the polymer's modulus and, of specimens whose beads were not measured, 0.01 of volume fraction.
 std::map<std::string, double> floating_inputs(const Experiment& experiment);
 
-/// One simulation of all conditions.
+/// One simulation of all conditions, or of the scans alone.
 struct DesignPoint {
   int member = 1;
-  std::string id;      ///< of the effect or believed input that is changed; empty: none
-  double theta = 0.0;  ///< magnitude, or standard deviations
-  bool whole = true;   ///< specimens of the observed size; else smaller ones (BankPlan::size)
+  std::string id;           ///< of the effect or believed input that is changed; empty: none
+  double theta = 0.0;       ///< magnitude, or standard deviations
+  bool whole = true;        ///< specimens of the observed size; else smaller ones (BankPlan::size)
+  std::uint64_t seed = 1;   ///< of what effects draw
+  bool scans_only = false;  ///< only tests that end at a scan
 
   Changes changes() const { return id.empty() ? Changes{} : Changes{{id, theta}}; }
 };
@@ -54,14 +56,17 @@ struct BankPlan {
 
 /// Baselines of every member; each effect at thirds of its range (in both directions where it has two; of
 /// errors that the tables of beads show by themselves at thirds of one and a half of that) and
-/// each believed input at two standard deviations to both sides, on members in turn. Specimens of more than
-/// 2,000 beads that were not measured get a smaller one of the same shape, beside baselines of their own
-/// size. Effects that only change what instruments read need no runs. Leaving an effect out changes no other
-/// run.
+/// each believed input at two standard deviations to both sides, on members in turn. Effects that draw are
+/// drawn three times at each magnitude. Tests that end at a scan are short: of them there are twice as many
+/// members and draws. Specimens of more than 2,000 beads that were not measured get a smaller one of the same
+/// shape, beside baselines of their own size. Effects that only change what instruments read need no runs.
+/// Leaving an effect out changes no other run.
 BankPlan plan_bank(const Experiment& experiment, const BankOptions& options, const fs::path& beads_folder);
 
-/// The run of one condition with some changes, its specimen of the observed size times `size`.
+/// The run of one condition with some changes, its specimen of the observed size times `size`; `seed` of what
+/// effects draw.
 sweep::RunRequest request_of(const Experiment& experiment, const Condition& condition, int member,
-                             const Changes& changes, const fs::path& beads_folder, double size = 1.0);
+                             std::uint64_t seed, const Changes& changes, const fs::path& beads_folder,
+                             double size = 1.0);
 
 }  // namespace pendular::diagnosis

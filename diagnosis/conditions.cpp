@@ -6,8 +6,8 @@
 
 #include "dem_core/simulation.h"
 #include "diagnosis/believed.h"
-#include "diagnosis/curve_signature.h"
 #include "diagnosis/funicular.h"
+#include "diagnosis/kinds/kind.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -16,38 +16,35 @@ constexpr double kSeriesStrain = 0.06;          // shows the linear part
 constexpr double kLongestStrain = 0.5;          // that a sample may ask for
 constexpr double kLonger = 1.15, kToe = 0.005;  // room beyond the observed strain
 constexpr double kSameUnloading = 1e-3;         // strains nearer than this are one unloading
+constexpr double kSameScan = 1e-5;              // or one scan
 // Courses are rounded to these steps, so that repeated measurements of a specimen share their runs.
 constexpr double kStrainStep = 5e-3, kUnloadingStep = 2.5e-3;
-constexpr double kFrames = 24.0;            // of a run that answers displacements
+constexpr double kBeyondScan = 1.005;       // of a scan's strain, at which its test ends
 constexpr double kQuasiStatic = 1e-4;       // speed in model units below which inertia does not show
 constexpr double kRelaxationStrain = 0.01;  // of the base sample, in its polymer's relaxation time
 
-/// Adds strains at which to unload, in order, none twice.
-void add_unloadings(std::vector<double>& strains, const std::vector<double>& more) {
+/// Adds strains, in order, none that is within `tolerance` of another.
+void add_strains(std::vector<double>& strains, const std::vector<double>& more,
+                 double tolerance = kSameUnloading) {
   for (double strain : more) {
-    const auto near = [&](double other) { return std::abs(other - strain) < kSameUnloading; };
+    const auto near = [&](double other) { return std::abs(other - strain) < tolerance; };
     if (std::none_of(strains.begin(), strains.end(), near)) strains.push_back(strain);
   }
   std::sort(strains.begin(), strains.end());
-}
-
-bool needs_test(Kind kind) {
-  return kind != Kind::bridge_stiffness && kind != Kind::bridge_diameters && kind != Kind::bridge_gaps &&
-         kind != Kind::modulus_series;
 }
 
 /// A sample without the course of its test: what must be equal for observations to share a run.
 std::string without_course(Sample sample) {
   sample.compression.max_strain = 0.1;
   sample.compression.unload_at.clear();
-  sample.compression.frames = 0.0;
+  sample.compression.frame_at.clear();
   return sample_text(sample);
 }
 
 std::vector<double> rounded(std::vector<double> strains) {
   for (double& strain : strains) strain = kUnloadingStep * std::round(strain / kUnloadingStep);
   std::vector<double> once;
-  add_unloadings(once, strains);
+  add_strains(once, strains);
   return once;
 }
 
@@ -55,7 +52,10 @@ std::vector<double> rounded(std::vector<double> strains) {
 void set_course(Sample& sample, const Observation& observation) {
   if (!observation.beads.empty()) sample.beads.diameters = "measured";
   sample.observe = {false, false, false, false, false};
-  sample.compression.frames = observation.kind == Kind::displacements ? kFrames : 0.0;
+  sample.compression.frames = 0.0;
+  sample.compression.frame_at.clear();
+  sample.compression.max_strain = 0.0;
+  if (observation.kind->course) observation.kind->course(observation, sample.compression);
 }
 
 /// Whether an experiment tells the rates of its tests apart.
@@ -88,29 +88,31 @@ Condition condition_of(const Experiment& experiment, std::size_t index) {
   Condition condition{experiment.sample_of(observation), observation.beads, {index}};
   set_course(condition.sample, observation);
   set_speed(condition.sample, experiment);
-  if (!observation.has("strain")) {
-    condition.sample.compression.max_strain = kSeriesStrain;
+  auto& course = condition.sample.compression;
+  if (ends_at_scan(condition)) {
+    std::vector<double> frames;
+    add_strains(frames, course.frame_at, kSameScan);
+    course.frame_at = frames;
+    course.max_strain = std::min(kLongestStrain, kBeyondScan * frames.back());
     return condition;
   }
-  const auto& strain = observation.column("strain");
-  condition.sample.compression.max_strain = std::min(
-      kLongestStrain,
-      kStrainStep *
-          std::ceil((kLonger * *std::max_element(strain.begin(), strain.end()) + kToe) / kStrainStep));
-  if (observation.kind == Kind::compression)
-    condition.sample.compression.unload_at =
-        rounded(unloading_strains({strain, observation.column("stress_pa")}));
+  course.unload_at = rounded(course.unload_at);
+  if (course.max_strain == 0.0)
+    course.max_strain = kSeriesStrain;
+  else
+    course.max_strain = std::min(
+        kLongestStrain, kStrainStep * std::ceil((kLonger * course.max_strain + kToe) / kStrainStep));
   return condition;
 }
 
 void merge(std::vector<Condition>& all, Condition next) {
   for (auto& condition : all) {
-    if (condition.beads != next.beads) continue;
+    if (condition.beads != next.beads || ends_at_scan(condition) != ends_at_scan(next)) continue;
     if (without_course(condition.sample) != without_course(next.sample)) continue;
     auto &course = condition.sample.compression, &longer = next.sample.compression;
     course.max_strain = std::max(course.max_strain, longer.max_strain);
-    course.frames = std::max(course.frames, longer.frames);
-    add_unloadings(course.unload_at, longer.unload_at);
+    add_strains(course.frame_at, longer.frame_at, kSameScan);
+    add_strains(course.unload_at, longer.unload_at);
     condition.observations.push_back(next.observations.front());
     return;
   }
@@ -152,12 +154,16 @@ void add_series(std::vector<Condition>& all, const Experiment& experiment, std::
 
 }  // namespace
 
+bool ends_at_scan(const Condition& condition) {
+  return !condition.sample.compression.frame_at.empty();
+}
+
 std::vector<Condition> conditions_of(const Experiment& experiment) {
   std::vector<Condition> tests, series;
   for (std::size_t index = 0; index < experiment.observations.size(); ++index) {
-    const Kind kind = experiment.observations[index].kind;
-    if (needs_test(kind)) merge(tests, condition_of(experiment, index));
-    if (kind == Kind::modulus_series) add_series(series, experiment, index);
+    const Kind* kind = experiment.observations[index].kind;
+    if (kind->course) merge(tests, condition_of(experiment, index));
+    if (kind == &kinds::modulus_series()) add_series(series, experiment, index);
   }
   tests.insert(tests.end(), series.begin(), series.end());
   return tests;

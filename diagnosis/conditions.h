@@ -14,6 +14,10 @@ struct Condition {
   std::size_t row = 0;                    ///< of a modulus series: its row
 };
 
+/// Whether a condition's test ends at a scan: displacements are simulated apart from the whole curve, so that
+/// many of these short tests can be made.
+bool ends_at_scan(const Condition& condition);
+
 /// What must be simulated to answer an experiment, each specimen and test once: observations that differ in
 /// nothing but how far they go share a condition that goes as far as the farthest, unloads where any of them
 /// does, and leaves room for a toe of another length. A modulus series is a condition for each row that

@@ -118,10 +118,28 @@ void add_loading(Features& features, const Curve& smooth, const pendular::CurveF
     features.logarithm("softening", stress_at(smooth, peak + 0.02) / at.peak_stress, peak, peak + 0.02);
 }
 
-/// Rows of a curve from a strain's turning back to where it is reached again.
-struct Loop {
-  std::size_t top, bottom, end;
-};
+void add_loop(Features& features, const Curve& curve, const Loop& loop, double toe,
+              const std::string& suffix) {
+  const double start = curve.stress[loop.top], top = curve.strain[loop.top],
+               bottom = curve.strain[loop.bottom];
+  std::vector<double> strain, stress;
+  double residual = bottom, area = 0.0;
+  for (std::size_t k = loop.top; k <= loop.bottom; ++k) {
+    if (curve.stress[k] <= 0.95 * start && curve.stress[k] >= 0.5 * start)
+      strain.push_back(curve.strain[k]), stress.push_back(curve.stress[k]);
+    if (curve.stress[k] >= 0.1 * start) residual = curve.strain[k];
+  }
+  if (strain.size() < 3) return;
+  const double modulus = line_through(strain, stress).slope;
+  features.logarithm("unloading_modulus" + suffix, modulus, strain.back(), strain.front());
+  features.difference("residual_strain" + suffix, residual - toe, bottom, top);
+  if (loop.end >= curve.strain.size() || modulus <= 0.0) return;
+  for (std::size_t k = loop.top + 1; k <= loop.end; ++k)
+    area += 0.5 * (curve.stress[k] + curve.stress[k - 1]) * (curve.strain[k] - curve.strain[k - 1]);
+  features.logarithm("loop_area" + suffix, area / (0.5 * start * start / modulus), bottom, top);
+}
+
+}  // namespace
 
 std::vector<Loop> loops_of(const Curve& curve, double last_strain) {
   std::vector<Loop> loops;
@@ -145,29 +163,6 @@ std::vector<Loop> loops_of(const Curve& curve, double last_strain) {
   }
   return loops;
 }
-
-void add_loop(Features& features, const Curve& curve, const Loop& loop, double toe,
-              const std::string& suffix) {
-  const double start = curve.stress[loop.top], top = curve.strain[loop.top],
-               bottom = curve.strain[loop.bottom];
-  std::vector<double> strain, stress;
-  double residual = bottom, area = 0.0;
-  for (std::size_t k = loop.top; k <= loop.bottom; ++k) {
-    if (curve.stress[k] <= 0.95 * start && curve.stress[k] >= 0.5 * start)
-      strain.push_back(curve.strain[k]), stress.push_back(curve.stress[k]);
-    if (curve.stress[k] >= 0.1 * start) residual = curve.strain[k];
-  }
-  if (strain.size() < 3) return;
-  const double modulus = line_through(strain, stress).slope;
-  features.logarithm("unloading_modulus" + suffix, modulus, strain.back(), strain.front());
-  features.difference("residual_strain" + suffix, residual - toe, bottom, top);
-  if (loop.end >= curve.strain.size() || modulus <= 0.0) return;
-  for (std::size_t k = loop.top + 1; k <= loop.end; ++k)
-    area += 0.5 * (curve.stress[k] + curve.stress[k - 1]) * (curve.strain[k] - curve.strain[k - 1]);
-  features.logarithm("loop_area" + suffix, area / (0.5 * start * start / modulus), bottom, top);
-}
-
-}  // namespace
 
 std::vector<CurveFeature> curve_features(const Curve& curve, double last_strain) {
   const Curve envelope = envelope_of(curve, last_strain);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,14 @@ struct CurveFeature {
 /// Of several unloadings the later ones' names end in _2, _3 … What a curve does not show is left out.
 /// Noise is taken out first by straight lines through a fiftieth of the range.
 std::vector<CurveFeature> curve_features(const Curve& curve, double last_strain);
+
+/// Rows of a curve from where its strain turns back to where it is reached again.
+struct Loop {
+  std::size_t top, bottom, end;
+};
+
+/// Unloadings by 0.2 % of strain or more and to a quarter of the stress or less, of turns up to `last_strain`.
+std::vector<Loop> loops_of(const Curve& curve, double last_strain);
 
 /// Strains at which a curve turns back by 0.2 % of strain or more, rising.
 std::vector<double> unloading_strains(const Curve& curve);

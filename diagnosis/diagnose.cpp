@@ -52,7 +52,7 @@ void add_overlays(const Experiment& experiment, const BankPlan& plan,
 
 /// Observations of one specimen and test that do not agree with each other.
 void warn_of_contradictions(const Experiment& experiment, const BankPlan& plan, Diagnosis& diagnosis) {
-  const ObservedFeatures all = observed_features(experiment);
+  const ObservedFeatures all = observed_features(Level::landmarks, experiment);
   const Eigen::VectorXd values = all.values();
   for (const auto& condition : plan.conditions)
     for (std::size_t a = 0; a < all.features.size(); ++a)
@@ -66,7 +66,7 @@ void warn_of_contradictions(const Experiment& experiment, const BankPlan& plan, 
           continue;
         const double apart = values[static_cast<Eigen::Index>(a)] - values[static_cast<Eigen::Index>(b)];
         const double sigma =
-            std::hypot(std::hypot(all.sigmas[a], all.sigmas[b]), all.features[a].logarithm ? 0.02 : 1e-3);
+            std::hypot(std::hypot(all.sigma(a), all.sigma(b)), all.features[a].logarithm ? 0.02 : 1e-3);
         if (std::fabs(apart) > kContradiction * sigma)
           diagnosis.warnings.push_back(
               fmt::format("{} and {} are of one specimen and test but differ in {} by {:.1f} sigma: they "
@@ -86,7 +86,7 @@ void warn_of_input(const Experiment& experiment, Diagnosis& diagnosis) {
     if (sd == 0.0)
       diagnosis.warnings.push_back(fmt::format("{} is stated without any uncertainty: taken as exact", key));
   for (const auto& observation : experiment.observations)
-    if (features_of(observation, observation.columns).empty())
+    if (features_of(Level::landmarks, observation, observation.columns).empty())
       diagnosis.warnings.push_back(
           observation.name + " shows nothing that can be compared (a curve that never becomes linear?)");
 }

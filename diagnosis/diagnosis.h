@@ -71,7 +71,7 @@ struct LedgerRow {
 /// Columns of one observation as measured and as simulated, one per realisation.
 struct Overlay {
   std::string observation;
-  Kind kind = Kind::compression;
+  const Kind* kind = compression_kind();
   Columns measured;
   std::vector<Columns> simulated;  ///< as believed
   std::vector<Columns> repaired;   ///< with the best explanation, from fresh runs; empty: none was made

@@ -1,90 +1,148 @@
 #include "diagnosis/emulator.h"
 
 #include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
+
+#include "base/median.h"
 
 namespace pendular::diagnosis {
 namespace {
 
 constexpr int kDegree = 2;
-constexpr double kFitted = 0.1;                       // of a residual that the fit leaves no room for
-constexpr double kOutlier = 2.5, kOfMedian = 1.4826;  // of a normal's standard deviation
-constexpr double kOfTheFit = 2.0 / 3.0;  // parameters over runs of an effect: the fit's own variance
+constexpr double kLeastRoom = 0.15;      // that a fit leaves a residual, of its variance
+constexpr double kOutlier = 3.0, kOfMedian = 1.4826;
+constexpr double kOfTheFit = 0.3;        // the fit's own variance over the scatter's
+constexpr double kDrawn = 0.35;          // share of a covariance that goes to its diagonal
 
-/// Columns that an id has in the design: powers of θ over its largest |θ|, which keeps them alike in size.
-struct Powers {
-  Eigen::Index first = 0;
-  int degree = 0;
-  double scale = 1.0;
+/// Runs of one id, less the baselines of their members.
+struct Group {
+  std::string id;
+  bool draws = false;
+  std::vector<double> theta;
+  std::vector<Eigen::VectorXd> change;
+
+  double scale() const {
+    double most = 0.0;
+    for (double one : theta) most = std::max(most, std::fabs(one));
+    return most;
+  }
+  int degree() const {
+    return std::set<double>(theta.begin(), theta.end()).size() >= 3 ? kDegree : 1;
+  }
 };
 
-struct Design {
-  std::vector<int> members;
-  std::vector<std::string> ids;
-  std::map<std::string, Powers> powers;
-  Eigen::MatrixXd matrix;
-};
+void take_baselines(const std::vector<DesignRun>& runs, Eigen::Index features, Responses& responses) {
+  std::map<int, std::vector<const DesignRun*>> baselines;
+  for (const auto& run : runs)
+    if (run.id.empty()) baselines[run.member].push_back(&run);
+  responses.offsets =
+      Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(baselines.size()), features, std::nan(""));
+  for (const auto& [member, of_it] : baselines) {
+    responses.offsets.row(static_cast<Eigen::Index>(responses.members.size())) = of_it.front()->values.transpose();
+    responses.members.push_back(member);
+  }
+  responses.mean = Eigen::VectorXd::Constant(features, std::nan(""));
+  for (Eigen::Index f = 0; f < features; ++f) {
+    double sum = 0.0, count = 0.0;
+    for (const double value : responses.offsets.col(f))
+      if (std::isfinite(value)) sum += value, count += 1.0;
+    if (count > 0.0) responses.mean[f] = sum / count;
+  }
+}
 
-Design design_of(const std::vector<DesignRun>& runs) {
-  Design design;
-  std::map<std::string, std::set<double>> magnitudes;
+std::vector<Group> groups_of(const std::vector<DesignRun>& runs, const Responses& responses) {
+  std::vector<Group> groups;
   for (const auto& run : runs) {
-    if (std::find(design.members.begin(), design.members.end(), run.member) == design.members.end())
-      design.members.push_back(run.member);
     if (run.id.empty()) continue;
-    if (!magnitudes.contains(run.id)) design.ids.push_back(run.id);
-    magnitudes[run.id].insert(run.theta);
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.id == run.id; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {run.id, run.draws, {}, {}});
+    const auto own = std::find(responses.members.begin(), responses.members.end(), run.member);
+    Eigen::VectorXd baseline = responses.mean;
+    if (own != responses.members.end()) {
+      const Eigen::VectorXd offset = responses.offsets.row(own - responses.members.begin()).transpose();
+      baseline = offset.array().isFinite().select(offset, baseline);
+    }
+    group->theta.push_back(run.theta);
+    group->change.push_back(run.values - baseline);
   }
-  auto columns = static_cast<Eigen::Index>(design.members.size());
-  for (const auto& id : design.ids) {
-    const auto& thetas = magnitudes[id];
-    Powers powers{columns, thetas.size() >= 3 ? kDegree : 1, 0.0};
-    for (double theta : thetas) powers.scale = std::max(powers.scale, std::fabs(theta));
-    design.powers[id] = powers;
-    columns += powers.degree;
-  }
-  design.matrix = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(runs.size()), columns);
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    const auto member = std::find(design.members.begin(), design.members.end(), runs[k].member);
-    design.matrix(row, member - design.members.begin()) = 1.0;
-    if (runs[k].id.empty()) continue;
-    const Powers& powers = design.powers[runs[k].id];
-    for (int n = 0; n < powers.degree; ++n)
-      design.matrix(row, powers.first + n) = std::pow(runs[k].theta / powers.scale, n + 1);
-  }
-  return design;
+  return groups;
 }
 
-/// The rows of runs that show a feature.
-std::vector<Eigen::Index> showing(const std::vector<DesignRun>& runs, Eigen::Index feature) {
-  std::vector<Eigen::Index> rows;
-  for (std::size_t k = 0; k < runs.size(); ++k)
-    if (std::isfinite(runs[k].values[feature])) rows.push_back(static_cast<Eigen::Index>(k));
-  return rows;
+/// Mean products of rows, over those that are finite in both columns.
+Eigen::MatrixXd pairwise(const Eigen::MatrixXd& rows, double freedom_lost) {
+  const Eigen::MatrixXd shown = rows.array().isFinite().cast<double>();
+  const Eigen::MatrixXd values = rows.array().isFinite().select(rows, 0.0);
+  const Eigen::MatrixXd counts = shown.transpose() * shown;
+  return (values.transpose() * values).array() / (counts.array() - freedom_lost).max(1.0);
 }
 
-/// Residuals, those drawn in that stand out: a few runs that a polynomial cannot follow (an effect at its
-/// largest) say nothing of the scatter of the others.
-Eigen::VectorXd without_outliers(Eigen::VectorXd left, const Eigen::MatrixXd& matrix,
-                                 const Eigen::MatrixXd& inverse) {
-  std::vector<double> sizes;
-  Eigen::VectorXd expected(left.size());  // standard deviation over that of the scatter
-  for (Eigen::Index r = 0; r < left.size(); ++r) {
-    expected[r] = std::sqrt(std::max(0.0, 1.0 - matrix.row(r).dot(inverse.col(r))));
-    if (expected[r] > kFitted) sizes.push_back(std::fabs(left[r]) / expected[r]);
+/// Fits one group; its residuals, each over the room that the fit leaves it, go into `left`.
+Signature fit_group(const Group& group, Eigen::Index features, Eigen::MatrixXd& left) {
+  const auto runs = static_cast<Eigen::Index>(group.theta.size());
+  const int degree = group.degree();
+  const double scale = group.scale();
+  Eigen::MatrixXd matrix(runs, degree);
+  for (Eigen::Index r = 0; r < runs; ++r)
+    for (int n = 0; n < degree; ++n)
+      matrix(r, n) = std::pow(group.theta[static_cast<std::size_t>(r)] / scale, n + 1);
+  Signature signature;
+  signature.id = group.id;
+  signature.powers.assign(static_cast<std::size_t>(degree), Eigen::VectorXd::Zero(features));
+  left = Eigen::MatrixXd::Constant(runs, features, std::nan(""));
+  for (Eigen::Index f = 0; f < features; ++f) {
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index r = 0; r < runs; ++r)
+      if (std::isfinite(group.change[static_cast<std::size_t>(r)][f])) rows.push_back(r);
+    if (rows.empty()) continue;
+    Eigen::VectorXd values(static_cast<Eigen::Index>(rows.size()));
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      values[static_cast<Eigen::Index>(r)] = group.change[static_cast<std::size_t>(rows[r])][f];
+    const Eigen::MatrixXd shown = matrix(rows, Eigen::all);
+    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(shown);
+    const Eigen::VectorXd found = solver.solve(values);
+    const Eigen::MatrixXd inverse = solver.pseudoInverse();
+    for (int n = 0; n < degree; ++n)
+      signature.powers[static_cast<std::size_t>(n)][f] = found[n] / std::pow(scale, n + 1);
+    const Eigen::VectorXd residual = values - shown * found;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const auto at = static_cast<Eigen::Index>(r);
+      const double room = std::max(kLeastRoom, 1.0 - shown.row(at).dot(inverse.col(at)));
+      left(rows[r], f) = residual[at] / std::sqrt(room);
+    }
   }
-  if (sizes.empty()) return left;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  const double most = kOutlier * kOfMedian * *middle;
-  for (Eigen::Index r = 0; r < left.size(); ++r)
-    left[r] = std::clamp(left[r], -most * expected[r], most * expected[r]);
-  return left;
+  return signature;
+}
+
+/// No residual beyond some median deviations of its column.
+void draw_in_outliers(Eigen::MatrixXd& left) {
+  for (Eigen::Index f = 0; f < left.cols(); ++f) {
+    std::vector<double> sizes;
+    for (const double one : left.col(f))
+      if (std::isfinite(one)) sizes.push_back(std::fabs(one));
+    if (sizes.empty()) continue;
+    const double most = kOutlier * kOfMedian * median(sizes);
+    for (double& one : left.col(f))
+      if (std::isfinite(one)) one = std::clamp(one, -most, most);
+  }
+}
+
+Eigen::MatrixXd stacked(const std::vector<Eigen::MatrixXd>& blocks, Eigen::Index columns) {
+  Eigen::Index rows = 0;
+  for (const auto& block : blocks) rows += block.rows();
+  Eigen::MatrixXd all(rows, columns);
+  rows = 0;
+  for (const auto& block : blocks) all.middleRows(rows, block.rows()) = block, rows += block.rows();
+  return all;
+}
+
+Eigen::MatrixXd shrunk(const Eigen::MatrixXd& covariance) {
+  Eigen::MatrixXd drawn = (1.0 - kDrawn) * covariance;
+  drawn.diagonal() = covariance.diagonal();
+  return positive_part(drawn);
 }
 
 }  // namespace
@@ -95,44 +153,36 @@ const Signature* Responses::find(const std::string& id) const {
   return found == signatures.end() ? nullptr : &*found;
 }
 
+Eigen::MatrixXd positive_part(const Eigen::MatrixXd& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (covariance + covariance.transpose()));
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() *
+         solver.eigenvectors().transpose();
+}
+
 Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index features) {
-  const Design design = design_of(runs);
   Responses responses;
-  responses.members = design.members;
-  const auto members = static_cast<Eigen::Index>(design.members.size());
-  responses.offsets = Eigen::MatrixXd::Zero(members, features);
-  for (const auto& id : design.ids) {
-    Signature signature;
-    signature.id = id;
-    signature.powers.assign(static_cast<std::size_t>(design.powers.at(id).degree),
-                            Eigen::VectorXd::Zero(features));
-    responses.signatures.push_back(signature);
-  }
-  Eigen::MatrixXd residuals = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(runs.size()), features);
-  for (Eigen::Index f = 0; f < features; ++f) {
-    const auto rows = showing(runs, f);
-    if (rows.empty()) continue;
-    Eigen::VectorXd values(static_cast<Eigen::Index>(rows.size()));
-    for (std::size_t r = 0; r < rows.size(); ++r)
-      values[static_cast<Eigen::Index>(r)] = runs[static_cast<std::size_t>(rows[r])].values[f];
-    const Eigen::MatrixXd matrix = design.matrix(rows, Eigen::all);
-    // Least norm where runs are too few for all coefficients: what is not seen has no response.
-    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(matrix);
-    const Eigen::VectorXd found = solver.solve(values);
-    responses.offsets.col(f) = found.head(members);
-    for (auto& signature : responses.signatures) {
-      const Powers& powers = design.powers.at(signature.id);
-      for (int n = 0; n < powers.degree; ++n)
-        signature.powers[static_cast<std::size_t>(n)][f] =
-            found[powers.first + n] / std::pow(powers.scale, n + 1);
+  take_baselines(runs, features, responses);
+  std::vector<Eigen::MatrixXd> scatter;
+  double parameters = 0.0;
+  for (const auto& group : groups_of(runs, responses)) {
+    Eigen::MatrixXd left;
+    Signature signature = fit_group(group, features, left);
+    if (group.draws) {
+      for (Eigen::Index r = 0; r < left.rows(); ++r)
+        left.row(r) /= std::fabs(group.theta[static_cast<std::size_t>(r)]) / group.scale();
+      signature.draws = shrunk(pairwise(left, 0.0));
+      signature.drawn_at = group.scale();
+    } else {
+      scatter.push_back(left);
+      parameters += group.degree();
     }
-    const Eigen::VectorXd left = without_outliers(values - matrix * found, matrix, solver.pseudoInverse());
-    for (std::size_t r = 0; r < rows.size(); ++r) residuals(rows[r], f) = left[static_cast<Eigen::Index>(r)];
-    responses.freedom += static_cast<double>(values.size() - solver.rank()) / static_cast<double>(features);
+    responses.signatures.push_back(std::move(signature));
   }
-  const Eigen::MatrixXd centred = responses.offsets.rowwise() - responses.offsets.colwise().mean();
-  responses.between = centred.transpose() * centred / std::max<double>(1.0, static_cast<double>(members - 1));
-  responses.within = residuals.transpose() * residuals / std::max(1.0, responses.freedom);
+  Eigen::MatrixXd left = stacked(scatter, features);
+  responses.freedom = std::max(1.0, static_cast<double>(left.rows()) - parameters);
+  draw_in_outliers(left);
+  responses.within = pairwise(left, 0.0);
+  responses.between = pairwise(responses.offsets.rowwise() - responses.mean.transpose(), 1.0);
   return responses;
 }
 
@@ -161,14 +211,12 @@ Scatter scatter_of(const Responses& responses) {
   const Eigen::MatrixXd between = (1.0 + 1.0 / members) * responses.between;
   const Eigen::MatrixXd within = (1.0 + kOfTheFit) * responses.within;
   Scatter scatter;
-  scatter.covariance = between + within;
+  scatter.covariance = shrunk(between + within);
   const Eigen::VectorXd diagonal = scatter.covariance.diagonal().cwiseMax(1e-12);
+  scatter.covariance.diagonal() = diagonal;
   const double share = between.diagonal().cwiseQuotient(diagonal).mean();
   scatter.freedom = 1.0 / (share * share / std::max(1.0, members - 1.0) +
                            (1.0 - share) * (1.0 - share) / std::max(1.0, responses.freedom));
-  const double size = static_cast<double>(diagonal.size());
-  scatter.covariance *= scatter.freedom / (size + scatter.freedom);
-  scatter.covariance.diagonal() = diagonal;
   return scatter;
 }
 

@@ -8,67 +8,42 @@
 #include "base/nearest.h"
 #include "base/toml_place.h"
 #include "diagnosis/believed.h"
-#include "diagnosis/plausible.h"
+#include "diagnosis/kinds/kind.h"
 #include "packing/tables.h"
 
 namespace pendular::diagnosis {
 namespace {
 
-/// How a kind of observation is written.
-struct Form {
-  Kind kind;
-  std::string name;
-  std::vector<std::string> required, optional;
-  std::size_t least_rows;
-};
-
-const std::vector<Form>& forms() {
-  static const std::vector<Form> all = {
-      {Kind::compression, "compression", {"strain", "stress_pa"}, {"stress_sigma_pa"}, 8},
-      {Kind::lateral_strain, "lateral_strain", {"strain", "lateral_strain"}, {"sigma"}, 4},
-      {Kind::modulus_series, "modulus_series", {"modulus_pa", "modulus_sigma_pa"}, {"E_p_pa", "W"}, 1},
-      {Kind::bridge_stiffness,
-       "bridge_stiffness",
-       {"d_um", "D_um"},
-       {"kn_n_per_m", "kn_sigma_n_per_m", "kt_n_per_m", "kt_sigma_n_per_m"},
-       1},
-      {Kind::bridge_diameters, "bridge_diameters", {"d_um"}, {}, 4},
-      {Kind::bridge_gaps, "bridge_gaps", {"gap_um"}, {"sigma_um"}, 4},
-      {Kind::coordination, "coordination", {"z", "z_sigma"}, {}, 1},
-      {Kind::displacements,
-       "displacements",
-       {"strain", "bead_id", "x_um", "y_um", "z_um", "ux_um", "uy_um", "uz_um"},
-       {},
-       20},
-      {Kind::broken_bonds, "broken_bonds", {"strain", "count"}, {}, 2},
-  };
-  return all;
-}
-
-const Form& form_of(Kind kind) {
-  return *std::find_if(forms().begin(), forms().end(), [&](const Form& f) { return f.kind == kind; });
-}
-
-Kind kind_at(const TomlPlace& place) {
-  const std::string word = word_at(place);
-  std::vector<std::string> names;
-  for (const auto& form : forms()) {
-    if (form.name == word) return form.kind;
-    names.push_back(form.name);
-  }
-  bad_input("{}: found \"{}\", the nearest known kind is \"{}\"", place.str(), word,
-            nearest_name(word, names));
-}
-
-void read_columns(Observation& observation) {
-  const Form& form = form_of(observation.kind);
-  const CsvTable table = read_csv(observation.file, form.required, form.optional);
-  for (const auto* names : {&form.required, &form.optional})
+/// Cells of text columns are read by the kind itself.
+void read_columns(Observation& observation, const CsvTable& table) {
+  const Kind& kind = *observation.kind;
+  if (table.rows() < kind.least_rows)
+    bad_input("{}: found {} row(s), expected at least {} for {}", observation.file.string(), table.rows(),
+              kind.least_rows, kind.name);
+  for (const auto* names : {&kind.required, &kind.optional})
     for (const auto& name : *names)
       if (table.has(name)) observation.columns[name] = table.numbers(name);
-  if (table.rows() < form.least_rows)
-    bad_input("{}: found {} row(s), expected at least {} for {}", observation.file.string(), table.rows(),
-              form.least_rows, form.name);
+  if (kind.read) kind.read(observation, table);
+}
+
+CsvTable table_of(const Observation& observation) {
+  std::vector<std::string> optional = observation.kind->optional;
+  if (observation.kind->read) optional.push_back("state");
+  return read_csv(observation.file, observation.kind->required, optional);
+}
+
+void set_key(Observation& observation, const KindKey& key, const TomlPlace& place) {
+  if (key.words.empty()) {
+    const double value = number_at(place);
+    if (value < key.lowest || value > key.highest)
+      bad_input("{}: found {}, expected {} to {}", place.str(), value, key.lowest, key.highest);
+    observation.numbers[key.name] = value;
+    return;
+  }
+  const std::string word = word_at(place);
+  if (std::find(key.words.begin(), key.words.end(), word) == key.words.end())
+    bad_input("{}: found \"{}\", expected one of \"{}\"", place.str(), word, fmt::join(key.words, "\", \""));
+  observation.words[key.name] = word;
 }
 
 std::vector<SampleSetting> settings_at(const TomlPlace& place) {
@@ -85,30 +60,41 @@ std::vector<SampleSetting> settings_at(const TomlPlace& place) {
 }
 
 Observation observation_at(const TomlPlace& place) {
-  static const std::vector<std::string> known = {"kind", "name", "file", "set", "beads"};
+  std::vector<std::string> known = {"kind", "name", "file", "set", "beads"};
   const auto* table = place.node.as_table();
   if (!table) bad_input("{}: found {}, expected [[observation]]", place.str(), type_name(place.node));
-  Observation observation;
   for (const char* needed : {"kind", "file"})
     if (!table->contains(needed)) bad_input("{}: {} is missing", place.str(), needed);
-  for (const auto& [key, node] : *table) {
-    const TomlPlace here{place.file, "observation." + std::string(key.str()), node};
-    if (key == "kind")
-      observation.kind = kind_at(here);
-    else if (key == "name")
-      observation.name = word_at(here);
-    else if (key == "file")
-      observation.file = file_at(here);
-    else if (key == "beads")
-      observation.beads = file_at(here);
-    else if (key == "set")
-      observation.set = settings_at(here);
+  const auto at = [&](const std::string& key) {
+    return TomlPlace{place.file, "observation." + key, *table->get(key)};
+  };
+  Observation observation;
+  observation.kind = find_kind(word_at(at("kind")), at("kind").str());
+  for (const auto& key : observation.kind->keys) {
+    known.push_back(key.name);
+    if (table->contains(key.name))
+      set_key(observation, key, at(key.name));
+    else if (key.words.empty())
+      observation.numbers[key.name] = key.otherwise;
     else
-      bad_input("{}: unknown key, the nearest known one is \"observation.{}\"", here.str(),
-                nearest_name(std::string(key.str()), known));
+      observation.words[key.name] = key.words.front();
+  }
+  for (const auto& [node_key, node] : *table) {
+    const std::string key(node_key.str());
+    if (key == "name")
+      observation.name = word_at(at(key));
+    else if (key == "file")
+      observation.file = file_at(at(key));
+    else if (key == "beads")
+      observation.beads = file_at(at(key));
+    else if (key == "set")
+      observation.set = settings_at(at(key));
+    else if (std::find(known.begin(), known.end(), key) == known.end())
+      bad_input("{}: unknown key, the nearest known one is \"observation.{}\"", at(key).str(),
+                nearest_name(key, known));
   }
   if (observation.name.empty()) observation.name = observation.file.stem().string();
-  read_columns(observation);
+  read_columns(observation, table_of(observation));
   return observation;
 }
 
@@ -158,11 +144,26 @@ void read_observations(Experiment& experiment, const TomlPlace& place) {
   }
 }
 
-}  // namespace
-
-std::string to_string(Kind kind) {
-  return form_of(kind).name;
+/// Uncertainties of zero tell nothing: the column counts as not given.
+void drop_empty_sigmas(Experiment& experiment, Observation& observation) {
+  for (auto it = observation.columns.begin(); it != observation.columns.end();) {
+    const auto& [name, column] = *it;
+    const bool sigma = name.find("sigma") != std::string::npos;
+    const auto [least, most] = std::minmax_element(column.begin(), column.end());
+    if (sigma && *least < 0.0)
+      bad_input("{}: {}: found a negative standard deviation", observation.file.string(), name);
+    const bool kept = !sigma || *least > 0.0 || name == "sigma_bridge_diameter_um";  // no neck, no error
+    if (kept) {
+      ++it;
+      continue;
+    }
+    experiment.warnings.push_back(observation.name + ": " + name +
+                                  " holds zeros; it counts as not given, and the scatter is used instead");
+    it = observation.columns.erase(it);
+  }
 }
+
+}  // namespace
 
 Sample Experiment::sample_of(const Observation& observation) const {
   return changed_sample(sample, [&](Sample& changed) {
@@ -191,7 +192,11 @@ Experiment read_experiment(const fs::path& path) {
   if (experiment.observations.empty()) bad_input("{}: found no [[observation]], expected at least one", file);
   if (experiment.name.empty()) experiment.name = path.stem().string();
   experiment.sample = read_sample(experiment.sample_file);
-  for (auto& observation : experiment.observations) check_plausible(experiment, observation);
+  for (auto& observation : experiment.observations) {
+    if (observation.kind->check)
+      observation.kind->check(experiment.sample_of(observation), observation, experiment.warnings);
+    drop_empty_sigmas(experiment, observation);
+  }
   std::set<fs::path> files;
   for (const auto& observation : experiment.observations)
     if (!observation.beads.empty()) files.insert(observation.beads);

@@ -7,38 +7,10 @@
 
 #include "base/files.h"
 #include "base/sample.h"
+#include "diagnosis/observation.h"
 #include "packing/contact_peak.h"
 
 namespace pendular::diagnosis {
-
-enum class Kind {
-  compression,
-  lateral_strain,
-  modulus_series,
-  bridge_stiffness,
-  bridge_diameters,
-  bridge_gaps,
-  coordination,
-  displacements,
-  broken_bonds
-};
-
-std::string to_string(Kind kind);
-
-/// Something that was measured (contract, "Experiment file").
-struct Observation {
-  Kind kind = Kind::compression;
-  std::string name;
-  std::vector<SampleSetting> set;  ///< where this specimen or its test differs from the sample
-  fs::path file;
-  fs::path beads;  ///< the specimen's own beads; empty: not measured
-  /// Columns by the names and in the units of the file's header; all of one length.
-  std::map<std::string, std::vector<double>> columns;
-
-  bool has(const std::string& column) const { return columns.contains(column); }
-  const std::vector<double>& column(const std::string& name_) const { return columns.at(name_); }
-  std::size_t rows() const { return columns.begin()->second.size(); }
-};
 
 /// What an experimenter measured, and what is believed about the specimens.
 struct Experiment {

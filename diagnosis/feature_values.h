@@ -11,19 +11,21 @@
 
 namespace pendular::diagnosis {
 
-/// The tests of one simulation, one per condition; empty where its run failed.
+/// The tests of one simulation, one per condition; empty where its run failed or was not made.
 using SimulatedTests = std::vector<std::optional<SimulatedTest>>;
 
 /// What an experiment shows: its features, and the observation of each.
 struct ObservedFeatures {
+  Level level = Level::landmarks;
   std::vector<Feature> features;
   std::vector<std::size_t> observation;
-  std::vector<double> sigmas;  ///< of the measurement, as they are compared
+  Eigen::MatrixXd measurement;  ///< covariance of the measurement's errors, as features are compared
+  Eigen::MatrixXd model;        ///< likewise of the simulation's own
 
-  /// As they are compared: logarithms or values.
-  Eigen::VectorXd values() const;
+  Eigen::VectorXd values() const;  ///< as they are compared
+  double sigma(std::size_t feature) const;  ///< of the measurement
 };
-ObservedFeatures observed_features(const Experiment& experiment);
+ObservedFeatures observed_features(Level level, const Experiment& experiment);
 
 /// BadInput where the observations show no feature at all: before runs are made for them.
 void require_features(const Experiment& experiment);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/experiment.h"
+#include "diagnosis/observation.h"
 
 namespace pendular::diagnosis {
 
@@ -19,18 +19,17 @@ struct Feature {
   bool logarithm = false;  ///< compared by ratio; else by difference
   double value = 0.0;
   double strain_from = 0.0, strain_to = 0.0;  ///< where it is read from, platen strain; 0, 0: no strain in it
+
+  /// As it is compared: its logarithm or itself.
+  double compared() const;
 };
 
-using Columns = std::map<std::string, std::vector<double>>;
+/// Two ways to read columns: landmarks are for words and for what a reader looks at; readings are all that the
+/// columns say, from which explanations are weighed.
+enum class Level { landmarks, readings };
 
 /// What columns of an observation's kind come to: measured ones, or ones that a simulation gives in their
-/// place. The observation tells how far in strain to look. Features that the columns do not show are left
-/// out.
-std::vector<Feature> features_of(const Observation& observation, const Columns& columns);
-
-/// Standard errors of the features of the measured columns (logarithms where compared so): their scatter when
-/// the columns are perturbed by their stated uncertainties, by the noise seen in a curve where none is
-/// stated, or drawn again where they are a sample.
-std::vector<double> feature_sigmas(const Observation& observation, int rounds, unsigned long seed);
+/// place. The observation tells where to look. Features that the columns do not show are left out.
+std::vector<Feature> features_of(Level level, const Observation& observation, const Columns& columns);
 
 }  // namespace pendular::diagnosis

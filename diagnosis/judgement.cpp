@@ -20,33 +20,27 @@ Eigen::MatrixXd whole_covariance(const Gap& gap) {
   return gap.covariance + gap.believed * gap.believed.transpose();
 }
 
-const Signature* signature_of(const Problem& problem, const std::string& id) {
-  for (const auto& signature : problem.signatures)
+const Signature* signature_of(const Comparison& comparison, const std::string& id) {
+  for (const auto& signature : comparison.signatures)
     if (signature.id == id) return &signature;
   return nullptr;
 }
 
 /// What magnitudes leave of the gap.
-Eigen::VectorXd left_by(const Problem& problem, const Changes& changes) {
-  Eigen::VectorXd left = problem.gap.values;
+Eigen::VectorXd left_by(const Comparison& comparison, const Changes& changes) {
+  Eigen::VectorXd left = comparison.gap.values;
   for (const auto& [id, theta] : changes)
-    if (const Signature* signature = signature_of(problem, id)) left -= signature->at(theta);
+    if (const Signature* signature = signature_of(comparison, id)) left -= signature->at(theta);
   return left;
 }
 
-std::vector<std::size_t> all_features(const Problem& problem) {
-  std::vector<std::size_t> all(problem.observed.features.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  return all;
-}
-
 /// The feature that a residual leaves farthest off, in words.
-std::string worst_of(const Problem& problem, const Eigen::VectorXd& left) {
-  const Eigen::MatrixXd covariance = whole_covariance(problem.gap);
+std::string worst_of(const Comparison& landmarks, const Eigen::VectorXd& left) {
+  const Eigen::MatrixXd covariance = whole_covariance(landmarks.gap);
   const Eigen::VectorXd z = left.cwiseQuotient(covariance.diagonal().cwiseSqrt());
   Eigen::Index at = 0;
   const double most = z.cwiseAbs().maxCoeff(&at);
-  const Feature& feature = problem.observed.features[static_cast<std::size_t>(at)];
+  const Feature& feature = landmarks.observed.features[static_cast<std::size_t>(at)];
   return fmt::format("{} of {} is {:.1f} sigma off", feature.name, feature.observation, most);
 }
 
@@ -91,16 +85,16 @@ double marginal(const std::vector<Hypothesis>& hypotheses, const std::string& ef
 /// Why a single effect is out of the question.
 std::string why_excluded(const Problem& problem, const Hypothesis& h, double misfit_of_none, double visible,
                          const Rules& rules) {
-  const Signature& signature = *signature_of(problem, h.id);
+  const Signature& signature = *signature_of(problem.readings, h.id);
   if (visible < rules.separable) return "these observations would hardly show it at any usual magnitude";
   if (misfit_of_none - h.misfit < 1.0) {
     const std::string both = signature.lowest < 0.0 ? "at either sign it" : "it";
     return fmt::format("{} moves the features away from what was observed, or not at all; {}", both,
-                       worst_of(problem, problem.gap.values));
+                       worst_of(problem.landmarks, problem.landmarks.gap.values));
   }
   const double theta = h.magnitudes.front().mean;
   return fmt::format("at its best magnitude, {:.3g}, {}", theta,
-                     worst_of(problem, left_by(problem, {{h.id, theta}})));
+                     worst_of(problem.landmarks, left_by(problem.landmarks, {{h.id, theta}})));
 }
 
 /// Whether one explanation holds all effects of another: what is added explains nothing that the other does
@@ -130,13 +124,14 @@ void set_ambiguity(const Problem& problem, const std::vector<Hypothesis>& hypoth
     held += h.probability;
   }
   const Eigen::MatrixXd& separation = diagnosis.separation;
-  for (std::size_t b = 0; b < problem.signatures.size(); ++b) {
-    const std::string& id = problem.signatures[b].id;
+  const auto& signatures = problem.readings.signatures;
+  for (std::size_t b = 0; b < signatures.size(); ++b) {
+    const std::string& id = signatures[b].id;
     const auto h =
         std::find_if(hypotheses.begin(), hypotheses.end(), [&](const auto& x) { return x.id == id; });
     if (is_in(id) || h->probability < rules.also_in_set) continue;
-    for (std::size_t a = 0; a < problem.signatures.size(); ++a)
-      if (problem.signatures[a].id == set.front() &&
+    for (std::size_t a = 0; a < signatures.size(); ++a)
+      if (signatures[a].id == set.front() &&
           separation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) < rules.separable) {
         set.push_back(id);
         break;
@@ -154,7 +149,7 @@ void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hyp
   double misfit_of_none = 0.0;
   for (const auto& h : hypotheses)
     if (h.id == "none") misfit_of_none = h.misfit;
-  const double features = static_cast<double>(problem.observed.features.size());
+  const double features = static_cast<double>(problem.readings.observed.features.size());
   for (const auto& h : hypotheses) {
     Explanation e{h.id, h.probability, h.magnitudes, {}, h.misfit / features};
     const auto ids = effects_in(h.id);
@@ -182,12 +177,11 @@ void set_groups(const Problem& problem, const Experiment& experiment, Diagnosis&
       if (std::find(singles.begin(), singles.end(), effect) == singles.end()) singles.push_back(effect);
   for (const auto& effect : singles)
     for (std::size_t index = 0; index < experiment.observations.size(); ++index) {
-      std::vector<std::size_t> features;
-      for (std::size_t f = 0; f < problem.observed.features.size(); ++f)
-        if (problem.observed.observation[f] == index) features.push_back(f);
+      const auto features = features_from(problem.readings, {index});
       if (features.empty()) continue;
-      const Signature signature = part_of({*signature_of(problem, effect)}, features).front();
-      const auto found = weigh(part_of(problem.gap, features), {signature});
+      const Signature signature =
+          part_of({*signature_of(problem.readings, effect)}, features).front();
+      const auto found = weigh(part_of(problem.readings.gap, features), {signature});
       for (const auto& h : found)
         if (h.id == effect)
           diagnosis.groups.push_back({effect, experiment.observations[index].name, h.magnitudes.front()});
@@ -195,19 +189,19 @@ void set_groups(const Problem& problem, const Experiment& experiment, Diagnosis&
 }
 
 /// Posterior of the believed inputs once the best explanation is taken off the gap.
-void set_pulls(const Problem& problem, const Changes& best, const Experiment& experiment,
+void set_pulls(const Comparison& readings, const Changes& best, const Experiment& experiment,
                Diagnosis& diagnosis) {
-  const Gap& gap = problem.gap;
+  const Gap& gap = readings.gap;
   const Eigen::MatrixXd covariance = whole_covariance(gap);
   const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
-  const Eigen::VectorXd pull = gap.believed.transpose() * factor.solve(left_by(problem, best));
+  const Eigen::VectorXd pull = gap.believed.transpose() * factor.solve(left_by(readings, best));
   const Eigen::MatrixXd known = gap.believed.transpose() * factor.solve(gap.believed);
   const Eigen::VectorXd noise = gap.covariance.diagonal().cwiseSqrt();
   const auto sds = floating_inputs(experiment);
-  for (std::size_t c = 0; c < problem.inputs.size(); ++c) {
+  for (std::size_t c = 0; c < readings.inputs.size(); ++c) {
     const auto at = static_cast<Eigen::Index>(c);
-    const auto stated = sds.find(problem.inputs[c]);
-    Pull one{problem.inputs[c], stated == sds.end() ? 0.0 : stated->second, pull[at],
+    const auto stated = sds.find(readings.inputs[c]);
+    Pull one{readings.inputs[c], stated == sds.end() ? 0.0 : stated->second, pull[at],
              std::sqrt(std::max(0.0, 1.0 - known(at, at)))};
     one.impact =
         gap.believed.col(at).cwiseQuotient(noise).norm() / std::sqrt(static_cast<double>(noise.size()));
@@ -216,15 +210,17 @@ void set_pulls(const Problem& problem, const Changes& best, const Experiment& ex
 }
 
 void set_signatures(const Problem& problem, Diagnosis& diagnosis) {
-  const Eigen::VectorXd noise = whole_covariance(problem.gap).diagonal().cwiseSqrt();
-  diagnosis.signatures = Eigen::MatrixXd(static_cast<Eigen::Index>(problem.signatures.size()), noise.size());
-  for (std::size_t e = 0; e < problem.signatures.size(); ++e) {
-    const Signature& signature = problem.signatures[e];
+  const Comparison& landmarks = problem.landmarks;
+  const Eigen::VectorXd noise = whole_covariance(landmarks.gap).diagonal().cwiseSqrt();
+  diagnosis.signatures =
+      Eigen::MatrixXd(static_cast<Eigen::Index>(landmarks.signatures.size()), noise.size());
+  for (std::size_t e = 0; e < landmarks.signatures.size(); ++e) {
+    const Signature& signature = landmarks.signatures[e];
     diagnosis.effects.push_back(signature.id);
     diagnosis.signatures.row(static_cast<Eigen::Index>(e)) =
         signature.at(signature.scale).cwiseQuotient(noise).transpose();
   }
-  diagnosis.separation = isolability(problem.gap, problem.signatures);
+  diagnosis.separation = isolability(problem.readings.gap, problem.readings.signatures);
 }
 
 }  // namespace
@@ -237,14 +233,15 @@ std::vector<std::string> effects_in(const std::string& id) {
 }
 
 Changes fitted_changes(const Problem& problem, const std::vector<std::string>& ids,
-                       const std::vector<std::size_t>& features) {
+                       const std::vector<std::size_t>& observations) {
+  const auto features = features_from(problem.readings, observations);
   std::vector<Signature> signatures;
-  for (const auto& id : ids) signatures.push_back(*signature_of(problem, id));
-  if (signatures.empty()) return {};
+  for (const auto& id : ids) signatures.push_back(*signature_of(problem.readings, id));
+  if (signatures.empty() || features.empty()) return {};
   std::string name = ids.front();
   for (std::size_t k = 1; k < ids.size(); ++k) name += "+" + ids[k];
   Changes changes;
-  for (const auto& h : weigh(part_of(problem.gap, features), part_of(signatures, features))) {
+  for (const auto& h : weigh(part_of(problem.readings.gap, features), part_of(signatures, features))) {
     if (h.id != name) continue;
     for (std::size_t k = 0; k < ids.size(); ++k) changes[ids[k]] = h.magnitudes[k].mean;
   }
@@ -253,24 +250,26 @@ Changes fitted_changes(const Problem& problem, const std::vector<std::string>& i
 
 void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, const Experiment& experiment,
            Diagnosis& diagnosis) {
+  const Comparison &landmarks = problem.landmarks, &readings = problem.readings;
   std::vector<double> simulated;
-  for (std::size_t f = 0; f < problem.observed.features.size(); ++f) {
-    const double value = problem.simulated[static_cast<Eigen::Index>(f)];
-    simulated.push_back(problem.observed.features[f].logarithm ? std::exp(value) : value);
+  for (std::size_t f = 0; f < landmarks.observed.features.size(); ++f) {
+    const double value = landmarks.simulated[static_cast<Eigen::Index>(f)];
+    simulated.push_back(landmarks.observed.features[f].logarithm ? std::exp(value) : value);
   }
-  diagnosis.gap = gap_table(problem.observed.features, simulated, problem.gap);
-  diagnosis.noise = problem.noise;
+  diagnosis.gap = gap_table(landmarks.observed.features, simulated, landmarks.gap);
+  diagnosis.noise = landmarks.noise;
   set_signatures(problem, diagnosis);
-  const auto hypotheses = weigh(problem.gap, problem.signatures, rules.priors);
+  const auto hypotheses = weigh(readings.gap, readings.signatures, rules.priors);
   set_explanations(problem, hypotheses, rules, plan, diagnosis);
-  diagnosis.nearest_signature = nearest_signature(hypotheses, problem.gap.values.size());
+  const Eigen::Index directions = span_of(readings.gap, readings.signatures);
+  diagnosis.nearest_signature = nearest_signature(hypotheses, directions);
   const Hypothesis& best = hypotheses.front();
-  diagnosis.goodness = goodness_of(best.misfit, static_cast<Eigen::Index>(problem.observed.features.size()),
-                                   problem.gap.freedom);
+  diagnosis.goodness = goodness_of(best.misfit, directions, readings.gap.freedom);
   set_ambiguity(problem, hypotheses, rules, diagnosis);
   set_groups(problem, experiment, diagnosis);
-  set_pulls(problem, fitted_changes(problem, effects_in(best.id), all_features(problem)), experiment,
-            diagnosis);
+  std::vector<std::size_t> all(experiment.observations.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  set_pulls(readings, fitted_changes(problem, effects_in(best.id), all), experiment, diagnosis);
 }
 
 }  // namespace pendular::diagnosis

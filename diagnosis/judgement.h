@@ -20,10 +20,10 @@ struct Rules {
 void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, const Experiment& experiment,
            Diagnosis& diagnosis);
 
-/// Best magnitudes of a hypothesis for some of the features: a single effect or a pair by the ids in `ids`.
-/// Means a posteriori; empty for none.
+/// Best magnitudes of a hypothesis for the readings of some observations: a single effect or a pair by the ids
+/// in `ids`. Means a posteriori; empty for none.
 Changes fitted_changes(const Problem& problem, const std::vector<std::string>& ids,
-                       const std::vector<std::size_t>& features);
+                       const std::vector<std::size_t>& observations);
 
 /// "a+b" → a, b; nothing for "none" and "unknown".
 std::vector<std::string> effects_in(const std::string& id);

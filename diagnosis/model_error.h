@@ -4,13 +4,8 @@
 
 namespace pendular::diagnosis {
 
-/// Standard deviation of a feature that two sound simulations of one model may differ by, as it is compared:
-/// laws that the model leaves open (damping, what counts as quasi-static, one tangential spring or two) and
-/// the reading of curves. Without it a difference of numerics is taken for physics. docs/diagnose.md says
-/// where the values come from.
-double model_error(const Feature& feature);
-
-/// The part of it that all stresses of a simulation share.
+/// What all stresses of a simulation may be off by together, as a share (one standard deviation): of a feature
+/// that is a stress or a modulus, as it is compared; 0 of others.
 double shared_stress_error(const Feature& feature);
 
 }  // namespace pendular::diagnosis

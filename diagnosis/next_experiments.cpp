@@ -6,29 +6,30 @@
 
 #include "diagnosis/curve_signature.h"
 #include "diagnosis/judgement.h"
+#include "diagnosis/kinds/kind.h"
 
 namespace pendular::diagnosis {
 namespace {
 
 constexpr double kSettled = 0.8;
 
-bool has(const Experiment& experiment, Kind kind) {
+bool has(const Experiment& experiment, const Kind& kind) {
   return std::any_of(experiment.observations.begin(), experiment.observations.end(),
-                     [&](const Observation& o) { return o.kind == kind; });
+                     [&](const Observation& o) { return o.kind == &kind; });
 }
 
 /// Whether observations of compression differ in what a function makes of their samples.
 bool varied(const Experiment& experiment, const std::function<double(const Sample&)>& of) {
   std::set<double> found;
   for (const auto& o : experiment.observations)
-    if (o.kind == Kind::compression) found.insert(of(experiment.sample_of(o)));
+    if (o.kind == &kinds::compression()) found.insert(of(experiment.sample_of(o)));
   return found.size() > 1;
 }
 
 bool unloads(const Experiment& experiment) {
   return std::any_of(experiment.observations.begin(), experiment.observations.end(),
                      [](const Observation& o) {
-                       return o.kind == Kind::compression &&
+                       return o.kind == &kinds::compression() &&
                               !unloading_strains({o.column("strain"), o.column("stress_pa")}).empty();
                      });
 }
@@ -43,7 +44,7 @@ struct Candidate {
 };
 
 std::vector<Candidate> candidates(const Experiment& experiment) {
-  const bool followed = has(experiment, Kind::displacements);
+  const bool followed = has(experiment, kinds::displacements());
   return {{"the platens pressed on a steel block",
            {"machine_compliance"},
            0.2,
@@ -59,7 +60,7 @@ std::vector<Candidate> candidates(const Experiment& experiment) {
            1.0,
            "a compliance in series grows with stiffness, geometry does not",
            varied(experiment, [](const Sample& s) { return s.bridges.youngs_modulus; }) ||
-               has(experiment, Kind::modulus_series)},
+               has(experiment, kinds::modulus_series())},
           {"the same test ten times as fast",
            {"polymer_viscoelasticity", "loading_rate"},
            1.0,
@@ -75,22 +76,22 @@ std::vector<Candidate> candidates(const Experiment& experiment) {
            {"bridge_bending", "platen_friction", "bead_friction"},
            0.3,
            "rearrangement and the ends show in the lateral ratio, a softer polymer does not",
-           has(experiment, Kind::lateral_strain)},
+           has(experiment, kinds::lateral_strain())},
           {"twenty single bridges by micropipettes",
            {"polymer_nonlinearity", "bridge_bending", "polymer_viscoelasticity"},
            1.0,
            "stiffness and course of a bridge without the network",
-           has(experiment, Kind::bridge_stiffness)},
+           has(experiment, kinds::bridge_stiffness())},
           {"necks counted and measured in a tomogram",
            {"missing_bridges", "bridge_diameter_spread", "funicular_bridges"},
            0.7,
            "which candidate pairs have a bridge, and how thick it is",
-           has(experiment, Kind::coordination) && has(experiment, Kind::bridge_diameters)},
+           has(experiment, kinds::coordination()) && has(experiment, kinds::bridge_diameters())},
           {"gaps of bridged pairs from a tomogram at sub-voxel precision",
            {"bridge_gap_spread", "position_error"},
            0.7,
            "the mean excess gap by itself",
-           has(experiment, Kind::bridge_gaps)},
+           has(experiment, kinds::bridge_gaps())},
           {"a second scan under load",
            {"machine_compliance", "platen_tilt", "platen_roughness", "residual_stress"},
            1.0,
@@ -110,7 +111,7 @@ std::vector<Candidate> candidates(const Experiment& experiment) {
            {"interface_strength", "bond_damage"},
            1.0,
            "the interfacial energy and how a bond goes, without the network",
-           has(experiment, Kind::broken_bonds)},
+           has(experiment, kinds::broken_bonds())},
           {"the simulation at half the speed", {"loading_rate"}, 0.1, "needs no experiment", false}};
 }
 

@@ -6,20 +6,19 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "diagnosis/contact_features.h"
+#include "diagnosis/field_readings.h"
 #include "diagnosis/model_error.h"
 #include "effects/list.h"
 
 namespace pendular::diagnosis {
 namespace {
 
-constexpr std::size_t kMostFeatures = 20;
 constexpr double kShown = 0.8;                 // of runs that must show a feature
-constexpr double kBeyond = 1.3;                // how far beyond its bank an effect may go
-constexpr double kScale = 0.5, kLeast = 0.15;  // usual and least magnitudes, over the bank's largest
-// Of responses: which bridges are missing is another matter than how many, and a polynomial through three
-// magnitudes is not the effect. Beads that were measured wrongly are only nearly found again.
-constexpr double kError = 0.1, kErrorOfBeads = 0.4;
+constexpr double kBeyond = 1.15;               // how far beyond its bank an effect may go
+constexpr double kScale = 0.5, kLeast = 0.12;  // usual and least magnitudes, over the bank's largest
+// Of responses: a polynomial through three magnitudes is not the effect. Beads that were measured wrongly are
+// only nearly found again.
+constexpr double kError = 0.07, kErrorOfBeads = 0.4;
 constexpr int kReadLevels = 6, kReadDegree = 4;  // of effects that only change what instruments read
 
 std::string label(const ObservedFeatures& observed, std::size_t k) {
@@ -38,42 +37,86 @@ Eigen::VectorXd mean_of(const std::vector<Eigen::VectorXd>& rows, Eigen::Index s
   return mean;
 }
 
-/// Builds a problem from the runs.
+/// The rows as an instrument with an effect would have read them, and the frames by the strain that it shows.
+void read_otherwise(SimulatedTest& test, const effects::Effect& effect, double theta) {
+  const auto before = test.rows;
+  effect.rows(test.rows, test.gauge, theta);
+  for (auto& frame : test.frames) {
+    std::size_t k = 0;
+    while (k + 1 < before.size() && before[k].strain < frame.strain) ++k;
+    frame.strain += test.rows[k].strain - before[k].strain;
+  }
+}
+
+/// Builds a comparison from the runs.
 class Learner {
  public:
-  Learner(const Experiment& experiment, const BankPlan& plan, const std::vector<SimulatedTests>& tests)
-      : experiment_(experiment), plan_(plan), tests_(tests) {
-    problem_.observed = observed_features(experiment);
+  Learner(Level level, const Experiment& experiment, const BankPlan& plan,
+          const std::vector<SimulatedTests>& tests, std::vector<std::string>& warnings)
+      : experiment_(experiment), plan_(plan), tests_(tests), warnings_(warnings) {
+    found_.observed = observed_features(level, experiment);
     scaled_ = std::any_of(plan.size.begin(), plan.size.end(), [](double size) { return size != 1.0; });
   }
 
-  Problem learn() {
-    read_runs();
+  Comparison learn() {
+    std::vector<Eigen::VectorXd> values;
+    for (std::size_t k = 0; k < plan_.points.size(); ++k)
+      values.push_back(simulated_features(experiment_, plan_.conditions, found_.observed, tests_[k],
+                                          plan_.points[k].changes()));
+    by_noise_ = Eigen::VectorXd::Zero(size());
+    if (found_.observed.level == Level::readings) add_fields(values);
+    sort_runs(values);
     choose_shown();
     fit();
-    choose_telling();
-    return std::move(problem_);
+    return std::move(found_);
   }
 
  private:
-  Eigen::Index size() const { return static_cast<Eigen::Index>(problem_.observed.features.size()); }
+  Eigen::Index size() const { return static_cast<Eigen::Index>(found_.observed.features.size()); }
 
-  void read_runs() {
+  void add_fields(std::vector<Eigen::VectorXd>& values) {
+    for (std::size_t index = 0; index < experiment_.observations.size(); ++index) {
+      const auto fields = field_readings(experiment_, plan_, index, tests_);
+      if (!fields) continue;
+      auto& observed = found_.observed;
+      const Eigen::Index before = size(), more = fields->by_noise.size();
+      observed.features.insert(observed.features.end(), fields->observed.begin(), fields->observed.end());
+      observed.observation.resize(observed.features.size(), index);
+      const auto widen = [&](Eigen::MatrixXd& matrix, const Eigen::MatrixXd& block) {
+        matrix.conservativeResizeLike(Eigen::MatrixXd::Zero(before + more, before + more));
+        matrix.bottomRightCorner(more, more) = block;
+      };
+      widen(observed.measurement, Eigen::MatrixXd::Zero(more, more));  // simulated fields have the noise
+      widen(observed.model, fields->model);
+      by_noise_.conservativeResizeLike(Eigen::VectorXd::Zero(before + more));
+      by_noise_.tail(more) = fields->by_noise;
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        values[k].conservativeResize(before + more);
+        values[k].tail(more) = fields->of_runs[k];
+      }
+    }
+  }
+
+  void sort_runs(std::vector<Eigen::VectorXd>& values) {
     for (std::size_t k = 0; k < plan_.points.size(); ++k) {
       const DesignPoint& point = plan_.points[k];
-      Eigen::VectorXd values =
-          simulated_features(experiment_, plan_.conditions, problem_.observed, tests_[k], point.changes());
       if (point.whole && point.id.empty()) {
-        baselines_.push_back(values);
+        baselines_.push_back(values[k]);
         baseline_points_.push_back(k);
       }
-      if (point.whole != scaled_) design_.push_back({point.member, point.id, point.theta, std::move(values)});
+      if (point.whole == scaled_) continue;
+      const auto& all = effects::all_effects();
+      const auto effect = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.id == point.id; });
+      design_.push_back({point.member, point.id, point.theta, std::move(values[k]),
+                         effect != all.end() && effect->draws});
+      scans_only_.push_back(point.scans_only);
     }
   }
 
   void keep(const std::vector<std::size_t>& kept) {
-    problem_.observed = subset(problem_.observed, kept);
+    found_.observed = subset(found_.observed, kept);
     const std::vector<Eigen::Index> rows(kept.begin(), kept.end());
+    by_noise_ = Eigen::VectorXd(by_noise_(rows));
     for (auto& values : baselines_) values = Eigen::VectorXd(values(rows));
     for (auto& run : design_) run.values = Eigen::VectorXd(run.values(rows));
   }
@@ -81,17 +124,16 @@ class Learner {
   void choose_shown() {
     std::vector<std::size_t> kept;
     const Eigen::VectorXd mean = mean_of(baselines_, size());
-    for (std::size_t f = 0; f < problem_.observed.features.size(); ++f) {
+    for (std::size_t f = 0; f < found_.observed.features.size(); ++f) {
       const auto at = static_cast<Eigen::Index>(f);
-      const auto shown = std::count_if(design_.begin(), design_.end(),
-                                       [&](const DesignRun& run) { return std::isfinite(run.values[at]); });
-      if (std::isfinite(mean[at]) &&
-          static_cast<double>(shown) >= kShown * static_cast<double>(design_.size()))
+      int shown = 0, asked = 0;
+      for (std::size_t k = 0; k < design_.size(); ++k)
+        if (!scans_only_[k]) ++asked, shown += std::isfinite(design_[k].values[at]);
+      if (std::isfinite(mean[at]) && shown >= kShown * asked)
         kept.push_back(f);
-      else
-        problem_.warnings.push_back(
-            fmt::format("{} was observed but only {} of {} simulations show it; not used",
-                        label(problem_.observed, f), shown, design_.size()));
+      else if (found_.observed.level == Level::landmarks)
+        warnings_.push_back(fmt::format("{} was observed but only {} of {} simulations show it; not used",
+                                        label(found_.observed, f), shown, asked));
     }
     if (kept.empty())
       bad_input(
@@ -103,11 +145,12 @@ class Learner {
 
   void fit() {
     const Responses responses = fit_responses(design_, size());
-    problem_.simulated = mean_of(baselines_, size());
-    problem_.gap.values = problem_.observed.values() - problem_.simulated;
+    found_.simulated = mean_of(baselines_, size());
+    found_.gap.values = found_.observed.values() - found_.simulated;
     set_signatures(responses);
     set_believed(responses);
     set_covariance(responses);
+    if (found_.observed.level == Level::readings) set_outside(responses);
   }
 
   void set_signatures(const Responses& responses) {
@@ -120,7 +163,7 @@ class Learner {
       const double largest = std::max(std::fabs(effect.bank_from), std::fabs(effect.bank_to));
       signature.scale = kScale * largest, signature.least = kLeast * largest;
       signature.error = effect.beads ? kErrorOfBeads : kError;
-      problem_.signatures.push_back(std::move(signature));
+      found_.signatures.push_back(std::move(signature));
     }
   }
 
@@ -134,10 +177,10 @@ class Learner {
       for (std::size_t b = 0; b < baselines_.size(); ++b) {
         SimulatedTests read = tests_[baseline_points_[b]];
         for (auto& test : read)
-          if (test) effect.rows(test->rows, test->gauge, theta);
-        rows.push_back(
-            simulated_features(experiment_, plan_.conditions, problem_.observed, read, {{effect.id, theta}}) -
-            baselines_[b]);
+          if (test) read_otherwise(*test, effect, theta);
+        rows.push_back(simulated_features(experiment_, plan_.conditions, found_.observed, read,
+                                          {{effect.id, theta}}) -
+                       baselines_[b]);
       }
       thetas.push_back(theta);
       changes.push_back(mean_of(rows, size()).unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; }));
@@ -148,87 +191,61 @@ class Learner {
   void set_believed(const Responses& responses) {
     std::vector<Eigen::VectorXd> columns;
     const auto add = [&](const std::string& name, const Eigen::VectorXd& column) {
-      problem_.inputs.push_back(name);
-      columns.push_back(column);
+      found_.inputs.push_back(name);
+      columns.push_back(column.unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; }));
     };
     for (const auto& [key, sd] : floating_inputs(experiment_))
       if (const Signature* found = responses.find(key)) add(key, found->at(1.0));
     Eigen::VectorXd stresses(size());
     for (Eigen::Index f = 0; f < size(); ++f)
-      stresses[f] = shared_stress_error(problem_.observed.features[static_cast<std::size_t>(f)]);
+      stresses[f] = shared_stress_error(found_.observed.features[static_cast<std::size_t>(f)]);
     add(kSimulationError, stresses);
     const bool measured = std::any_of(plan_.conditions.begin(), plan_.conditions.end(),
                                       [](const Condition& c) { return !c.beads.empty(); });
-    if (measured && responses.offsets.rows() > 1) {
-      const Eigen::Index moved = responses.offsets.rows() - 1;
-      add(kBeadsError, responses.offsets.bottomRows(moved).colwise().mean().transpose() -
-                           responses.offsets.row(0).transpose());
-    }
-    problem_.gap.believed = Eigen::MatrixXd(size(), static_cast<Eigen::Index>(columns.size()));
+    // The specimen is to the measured one as that is to those with further errors.
+    if (measured && responses.offsets.rows() > 1)
+      add(kBeadsError, responses.mean - responses.offsets.row(0).transpose());
+    if (by_noise_.squaredNorm() > 0.0) add(kFieldError, by_noise_);
+    found_.gap.believed = Eigen::MatrixXd(size(), static_cast<Eigen::Index>(columns.size()));
     for (std::size_t c = 0; c < columns.size(); ++c)
-      problem_.gap.believed.col(static_cast<Eigen::Index>(c)) = columns[c];
+      found_.gap.believed.col(static_cast<Eigen::Index>(c)) = columns[c];
   }
 
   void set_covariance(const Responses& responses) {
     const Scatter scatter = scatter_of(responses);
-    problem_.gap.covariance = scatter.covariance;
+    const auto& observed = found_.observed;
+    found_.gap.covariance = scatter.covariance + positive_part(observed.measurement + observed.model);
     double share = 0.0;
     for (Eigen::Index f = 0; f < size(); ++f) {
-      const auto& feature = problem_.observed.features[static_cast<std::size_t>(f)];
       NoiseBudget budget;
       budget.ensemble = std::sqrt(scatter.covariance(f, f));
-      budget.measurement = problem_.observed.sigmas[static_cast<std::size_t>(f)];
-      budget.model = model_error(feature);
-      budget.believed = problem_.gap.believed.row(f).norm();
-      problem_.noise.push_back(budget);
-      problem_.gap.covariance(f, f) += std::pow(budget.measurement, 2) + std::pow(budget.model, 2);
-      share += scatter.covariance(f, f) / problem_.gap.covariance(f, f) / static_cast<double>(size());
+      budget.measurement = observed.sigma(static_cast<std::size_t>(f));
+      budget.model = std::sqrt(observed.model(f, f));
+      budget.believed = found_.gap.believed.row(f).norm();
+      share += scatter.covariance(f, f) / found_.gap.covariance(f, f) / static_cast<double>(size());
+      found_.noise.push_back(budget);
     }
-    // Only this share of the variance was estimated from runs (Satterthwaite).
-    problem_.gap.freedom = scatter.freedom / std::max(1e-6, share * share);
+    // Welch and Satterthwaite: only the ensemble's part of the noise was estimated.
+    found_.gap.freedom = scatter.freedom / std::max(1e-6, share * share);
   }
 
-  void choose_telling() {
-    const auto count = problem_.observed.features.size();
-    if (count <= kMostFeatures) return;
-    std::vector<std::pair<double, std::size_t>> moved;
-    for (std::size_t f = 0; f < count; ++f) {
-      const auto at = static_cast<Eigen::Index>(f);
-      double most = problem_.gap.believed.row(at).cwiseAbs().maxCoeff();
-      for (const auto& signature : problem_.signatures)
-        most = std::max(most, std::fabs(signature.at(signature.scale)[at]));
-      moved.emplace_back(-most / std::sqrt(problem_.gap.covariance(at, at)), f);
-      if (is_of_beads(problem_.observed.features[f]))
-        moved.back().first = -HUGE_VAL;  // nothing else tells that
-    }
-    std::sort(moved.begin(), moved.end());
-    std::vector<std::size_t> kept;
-    std::string left_out;
-    for (std::size_t k = 0; k < count; ++k) {
-      if (k < kMostFeatures)
-        kept.push_back(moved[k].second);
-      else
-        left_out += (left_out.empty() ? "" : ", ") + label(problem_.observed, moved[k].second);
-    }
-    problem_.warnings.push_back(
-        fmt::format("{} features are used; others tell less: {}", kMostFeatures, left_out));
-    std::sort(kept.begin(), kept.end());
-    const std::vector<Eigen::Index> rows(kept.begin(), kept.end());
-    problem_.gap = part_of(problem_.gap, kept);
-    problem_.signatures = part_of(problem_.signatures, kept);
-    problem_.simulated = Eigen::VectorXd(problem_.simulated(rows));
-    problem_.observed = subset(problem_.observed, kept);
-    std::vector<NoiseBudget> noise;
-    for (const std::size_t f : kept) noise.push_back(problem_.noise[f]);
-    problem_.noise = std::move(noise);
+  /// What the runs themselves have outside the span of the responses.
+  void set_outside(const Responses& responses) {
+    std::vector<Eigen::VectorXd> values;
+    for (const auto& run : design_)
+      if (run.values.allFinite()) values.push_back(run.values - responses.mean);
+    found_.gap.outside = outside_of(found_.gap, found_.signatures, values);
   }
 
   const Experiment& experiment_;
   const BankPlan& plan_;
   const std::vector<SimulatedTests>& tests_;
-  Problem problem_;
+  std::vector<std::string>& warnings_;
+  Comparison found_;
   bool scaled_ = false;
+  Eigen::VectorXd by_noise_;
   std::vector<DesignRun> design_;
+  std::vector<bool> scans_only_;            // of its runs
   std::vector<Eigen::VectorXd> baselines_;  // of specimens of the observed size
   std::vector<std::size_t> baseline_points_;
 };
@@ -237,7 +254,10 @@ class Learner {
 
 Problem problem_of(const Experiment& experiment, const BankPlan& plan,
                    const std::vector<SimulatedTests>& tests) {
-  return Learner(experiment, plan, tests).learn();
+  Problem problem;
+  problem.landmarks = Learner(Level::landmarks, experiment, plan, tests, problem.warnings).learn();
+  problem.readings = Learner(Level::readings, experiment, plan, tests, problem.warnings).learn();
+  return problem;
 }
 
 Gap part_of(const Gap& gap, const std::vector<std::size_t>& features) {
@@ -254,9 +274,21 @@ std::vector<Signature> part_of(const std::vector<Signature>& signatures,
                                const std::vector<std::size_t>& features) {
   const std::vector<Eigen::Index> rows(features.begin(), features.end());
   std::vector<Signature> parts = signatures;
-  for (auto& part : parts)
+  for (auto& part : parts) {
     for (auto& power : part.powers) power = Eigen::VectorXd(power(rows));
+    if (part.draws.size() > 0) part.draws = Eigen::MatrixXd(part.draws(rows, rows));
+  }
   return parts;
+}
+
+std::vector<std::size_t> features_from(const Comparison& comparison,
+                                       const std::vector<std::size_t>& observations) {
+  std::vector<std::size_t> features;
+  for (std::size_t f = 0; f < comparison.observed.features.size(); ++f)
+    if (std::find(observations.begin(), observations.end(), comparison.observed.observation[f]) !=
+        observations.end())
+      features.push_back(f);
+  return features;
 }
 
 }  // namespace pendular::diagnosis

@@ -18,8 +18,8 @@ constexpr const char* kModulus = "bridges.youngs_modulus_pa";
 
 using Indices = std::vector<std::size_t>;
 
-Indices all_features(const Problem& problem) {
-  Indices all(problem.observed.features.size());
+Indices all_features(const Comparison& landmarks) {
+  Indices all(landmarks.observed.features.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
   return all;
 }
@@ -30,6 +30,13 @@ double excess_of(const Eigen::LLT<Eigen::MatrixXd>& factor, const Eigen::VectorX
   return std::sqrt(std::max(0.0, squared / static_cast<double>(values.size()) - noise));
 }
 
+/// The observations that features are read from.
+Indices observations_of(const Comparison& landmarks, const Indices& features) {
+  std::set<std::size_t> found;
+  for (const std::size_t f : features) found.insert(landmarks.observed.observation[f]);
+  return {found.begin(), found.end()};
+}
+
 /// One way of repairing the simulation: how magnitudes follow from some features.
 struct Model {
   std::string name;
@@ -38,13 +45,13 @@ struct Model {
 
 /// Only the polymer's modulus, by generalised least squares on its logarithm, unbounded.
 Changes retuned_modulus(const RepairShop& shop, const Indices& features) {
-  const Problem& problem = shop.problem;
-  const auto found = std::find(problem.inputs.begin(), problem.inputs.end(), kModulus);
-  if (found == problem.inputs.end()) return {};
-  const auto column = static_cast<Eigen::Index>(found - problem.inputs.begin());
+  const Comparison& landmarks = shop.problem.landmarks;
+  const auto found = std::find(landmarks.inputs.begin(), landmarks.inputs.end(), kModulus);
+  if (found == landmarks.inputs.end()) return {};
+  const auto column = static_cast<Eigen::Index>(found - landmarks.inputs.begin());
   const double relative =
       floating_inputs(shop.experiment).at(kModulus) / sample_key(shop.experiment.sample, kModulus);
-  Gap gap = part_of(problem.gap, features);
+  Gap gap = part_of(landmarks.gap, features);
   const Eigen::VectorXd response = gap.believed.col(column) / relative;  // of a change of log E_p by one
   gap.believed.col(column).setZero();
   const Eigen::LLT<Eigen::MatrixXd> factor(gap.covariance + gap.believed * gap.believed.transpose());
@@ -57,7 +64,7 @@ Changes retuned_modulus(const RepairShop& shop, const Indices& features) {
 /// Which tests to withhold together: the features of each condition, or of each observation where there is
 /// one condition only; what no test shows is never withheld.
 std::vector<Indices> withheld_parts(const RepairShop& shop) {
-  const Problem& problem = shop.problem;
+  const Comparison& landmarks = shop.problem.landmarks;
   std::set<std::size_t> tested;
   for (const auto& condition : shop.plan.conditions)
     tested.insert(condition.observations.begin(), condition.observations.end());
@@ -73,9 +80,9 @@ std::vector<Indices> withheld_parts(const RepairShop& shop) {
   std::vector<Indices> parts;
   for (const auto& group : groups) {
     Indices part;
-    for (std::size_t f = 0; f < problem.observed.features.size(); ++f)
-      if (group.contains(problem.observed.observation[f])) part.push_back(f);
-    if (!part.empty() && part.size() < problem.observed.features.size()) parts.push_back(part);
+    for (std::size_t f = 0; f < landmarks.observed.features.size(); ++f)
+      if (group.contains(landmarks.observed.observation[f])) part.push_back(f);
+    if (!part.empty() && part.size() < landmarks.observed.features.size()) parts.push_back(part);
   }
   return parts;
 }
@@ -93,23 +100,23 @@ class Bench {
     std::vector<sweep::RunRequest> requests;
     for (const int member : kFresh)
       for (const std::size_t c : needed)
-        requests.push_back(
-            request_of(shop_.experiment, shop_.plan.conditions[c], member, changes, shop_.beads_folder));
+        requests.push_back(request_of(shop_.experiment, shop_.plan.conditions[c], member,
+                                      static_cast<std::uint64_t>(member), changes, shop_.beads_folder));
     const auto outcomes = shop_.make_runs(name, requests);
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(shop_.problem.gap.values.size()), count = sum;
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(shop_.problem.landmarks.gap.values.size()), count = sum;
     auto outcome = outcomes.begin();
     for (std::size_t m = 0; m < std::size(kFresh); ++m) {
       SimulatedTests tests(shop_.plan.conditions.size());
       for (const std::size_t c : needed)
         tests[c] = read_outcome(*outcome++, c, name + ": " + purpose_of(changes), diagnosis_.ledger);
       const Eigen::VectorXd values =
-          simulated_features(shop_.experiment, shop_.plan.conditions, shop_.problem.observed, tests, changes);
+          simulated_features(shop_.experiment, shop_.plan.conditions, shop_.problem.landmarks.observed, tests, changes);
       for (Eigen::Index f = 0; f < values.size(); ++f)
         if (std::isfinite(values[f])) sum[f] += values[f], count[f] += 1.0;
       if (overlay) add_overlays(tests, changes);
     }
-    Eigen::VectorXd gap = shop_.problem.gap.values;
-    const Eigen::VectorXd observed = shop_.problem.observed.values();
+    Eigen::VectorXd gap = shop_.problem.landmarks.gap.values;
+    const Eigen::VectorXd observed = shop_.problem.landmarks.observed.values();
     for (Eigen::Index f = 0; f < gap.size(); ++f)
       if (count[f] > 0.0) gap[f] = observed[f] - sum[f] / count[f];
     return gap;
@@ -118,10 +125,10 @@ class Bench {
   /// The withheld features of all parts, each as the model that has not seen its part leaves it.
   Eigen::VectorXd withheld_gap(const Model& model, const std::vector<Indices>& parts,
                                const Indices& withheld) {
-    Eigen::VectorXd gap = shop_.problem.gap.values;
+    Eigen::VectorXd gap = shop_.problem.landmarks.gap.values;
     for (const auto& part : parts) {
       Indices others;
-      for (const std::size_t f : all_features(shop_.problem))
+      for (const std::size_t f : all_features(shop_.problem.landmarks))
         if (std::find(part.begin(), part.end(), f) == part.end()) others.push_back(f);
       const Eigen::VectorXd left = gap_with(model.fit(others), model.name + " on withheld data", part, false);
       for (const std::size_t f : part) gap[static_cast<Eigen::Index>(f)] = left[static_cast<Eigen::Index>(f)];
@@ -136,7 +143,7 @@ class Bench {
     for (std::size_t c = 0; c < shop_.plan.conditions.size(); ++c) {
       const auto& answers = shop_.plan.conditions[c].observations;
       if (std::any_of(features.begin(), features.end(), [&](std::size_t f) {
-            return std::find(answers.begin(), answers.end(), shop_.problem.observed.observation[f]) !=
+            return std::find(answers.begin(), answers.end(), shop_.problem.landmarks.observed.observation[f]) !=
                    answers.end();
           }))
         needed.push_back(c);
@@ -193,21 +200,22 @@ Shrinkage shrinkage_of(const Gap& before, const Eigen::VectorXd& after) {
 
 void measure_shrinkage(const RepairShop& shop, Diagnosis& diagnosis) {
   const Problem& problem = shop.problem;
-  const double excess_before = excess(problem.gap);
+  const Comparison& landmarks = problem.landmarks;
+  const double excess_before = excess(landmarks.gap);
   diagnosis.fitted = {excess_before, excess_before, 0.0, {0.0, 0.0}, {}};
   diagnosis.withheld = diagnosis.fitted;
   const auto ids = effects_in(diagnosis.explanations.front().id);
   if (ids.empty() || excess_before <= 0.0) return;
 
   Bench bench(shop, diagnosis);
-  const Indices all = all_features(problem);
+  const Indices all = all_features(landmarks);
   const auto effect_model = [&](const std::string& name, const std::vector<std::string>& effects) {
-    return Model{name, [&problem, effects](const Indices& features) {
-                   return fitted_changes(problem, effects, features);
+    return Model{name, [&problem, &landmarks, effects](const Indices& features) {
+                   return fitted_changes(problem, effects, observations_of(landmarks, features));
                  }};
   };
   const Model best = effect_model("repaired", ids);
-  diagnosis.fitted = shrinkage_of(problem.gap, bench.gap_with(best.fit(all), best.name, all, true));
+  diagnosis.fitted = shrinkage_of(landmarks.gap, bench.gap_with(best.fit(all), best.name, all, true));
   for (const auto& observation : shop.experiment.observations)
     diagnosis.fitted.observations.push_back(observation.name);
 
@@ -215,10 +223,10 @@ void measure_shrinkage(const RepairShop& shop, Diagnosis& diagnosis) {
   Indices withheld;
   for (const auto& part : parts) withheld.insert(withheld.end(), part.begin(), part.end());
   if (withheld.empty()) return;
-  const Gap gap = part_of(problem.gap, withheld);
+  const Gap gap = part_of(landmarks.gap, withheld);
   diagnosis.withheld = shrinkage_of(gap, bench.withheld_gap(best, parts, withheld));
   std::set<std::size_t> names;
-  for (const std::size_t f : withheld) names.insert(problem.observed.observation[f]);
+  for (const std::size_t f : withheld) names.insert(landmarks.observed.observation[f]);
   for (const std::size_t index : names)
     diagnosis.withheld.observations.push_back(shop.experiment.observations[index].name);
   const Model retuned{"modulus retuned",

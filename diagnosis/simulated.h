@@ -1,14 +1,24 @@
 #pragma once
 
-#include <functional>
+#include <cstdint>
+#include <set>
+#include <utility>
 #include <vector>
 
+#include "base/vec3.h"
 #include "dem_core/curve.h"
-#include "diagnosis/conditions.h"
-#include "diagnosis/features.h"
+#include "diagnosis/observation.h"
 #include "effects/effect.h"
 
 namespace pendular::diagnosis {
+
+/// A specimen as a simulated scan shows it. SI.
+struct Frame {
+  double strain = 0.0;  ///< platen strain, true
+  std::vector<std::int64_t> ids;
+  std::vector<Vec3> rest, displacement;
+  std::set<std::pair<std::int64_t, std::int64_t>> standing, broken;  ///< pairs of ids, the smaller first
+};
 
 /// A simulated test as its instruments report it.
 struct SimulatedTest {
@@ -16,15 +26,24 @@ struct SimulatedTest {
   std::vector<CurveRow> rows;
   effects::Gauge gauge{};
   double coordination = 0.0;  ///< bridges per interior bead
+  std::vector<Frame> frames;  ///< rising in strain
 };
+
+/// The strain of a frame that stands for the specimen at rest.
+inline constexpr double kRestStrain = 1e-3;
 
 /// Reads a run folder. BadInput where it is damaged.
 SimulatedTest read_simulated_test(const fs::path& folder);
 
-/// The columns that an observation of `kind` compression, lateral_strain, coordination, displacements or
-/// broken_bonds would have had. Displacements are those of the beads that were followed, scaled from the
-/// nearest frame to the strain observed.
-Columns columns_of_test(const Observation& observation, const SimulatedTest& test);
+/// The frame whose platen strain, as the instruments read it, is nearest to this one. BadInput where the run
+/// kept none.
+const Frame& frame_near(const SimulatedTest& test, double strain);
+
+/// Columns "strain" and one more of a test's rows.
+Columns columns_of_rows(const SimulatedTest& test, const std::string& name, double CurveRow::*value);
+
+/// The magnitude of a sample's effect; 0 where it has none of that name.
+double effect_magnitude(const Sample& sample, const std::string& effect);
 
 /// A point that supports a simulated modulus series: E_p or W, and E.
 struct SeriesPoint {
@@ -37,11 +56,5 @@ double simulated_modulus(const SimulatedTest& test);
 /// The columns of a modulus series: at the observed E_p or W, log E by straight lines in its logarithm
 /// between the points.
 Columns columns_of_series(const Observation& observation, std::vector<SeriesPoint> points);
-
-/// The columns of single-bridge tests, diameters or gaps, by what `sample` says of its bridges: each tested
-/// bridge's stiffness by finite elements from its own diameter (scaled to the stated stiffness, where one is
-/// stated); diameters of the stated mean, and of the larger of the stated spread and that of the effect
-/// bridge_diameter_spread; gaps of the stated one and the mean excess of bridge_gap_spread.
-Columns columns_of_bridges(const Observation& observation, const Sample& sample);
 
 }  // namespace pendular::diagnosis

@@ -1,3 +1,4 @@
+#include "diagnosis/kinds/kind.h"
 #include "diagnosis_report/overlay_figures.h"
 
 #include <fmt/format.h>
@@ -143,7 +144,7 @@ Table run_table(const OverlayView& view, const Trace& measured, const std::vecto
 }
 
 std::string caption_of(const Overlay& overlay, const Trace& compared) {
-  std::string text = fmt::format("{} ({}): measured", overlay.observation, to_string(overlay.kind));
+  std::string text = fmt::format("{} ({}): measured", overlay.observation, overlay.kind->name);
   if (!overlay.simulated.empty()) text += ", simulated as believed";
   if (!overlay.repaired.empty()) text += ", simulated with the best explanation";
   text += fmt::format(
@@ -151,7 +152,7 @@ std::string caption_of(const Overlay& overlay, const Trace& compared) {
       "Below: "
       "simulated less measured",
       kMany);
-  if (overlay.kind == diagnosis::Kind::compression) text += ", on first loading";
+  if (overlay.kind == &diagnosis::kinds::compression()) text += ", on first loading";
   return text + (compared.sd.empty() ? "." : "; grey: the measurement's standard deviation.");
 }
 
@@ -217,7 +218,7 @@ Drawn number_figure(const viz::Display& display, const Overlay& overlay, const s
   return {viz::draw_rows(display, plot),
           fmt::format("{} ({}): measured with its standard deviation, and the realisations from least to "
                       "largest.",
-                      overlay.observation, to_string(overlay.kind)),
+                      overlay.observation, overlay.kind->name),
           table};
 }
 
@@ -228,7 +229,7 @@ std::vector<Drawn> overlay_figures(const viz::Display& display, const diagnosis:
   for (std::size_t k = 0; k < d.overlays.size(); ++k) {
     const Overlay& overlay = d.overlays[k];
     const std::string name = fmt::format("overlay_{}_{}", k + 1, overlay.observation);
-    if (overlay.kind == diagnosis::Kind::coordination) {
+    if (overlay.kind == &diagnosis::kinds::coordination()) {
       figures.push_back(number_figure(display, overlay, name, "z"));
       continue;
     }

@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+
+#include "diagnosis/kinds/kind.h"
 
 namespace pendular::diagnosis_report {
 namespace {
 
 using diagnosis::Columns;
 using diagnosis::Kind;
+namespace kinds = diagnosis::kinds;
 using diagnosis::Overlay;
 
 constexpr std::size_t kBins = 12;         // along z, for displacements
@@ -193,33 +197,33 @@ OverlayView displacement_view(const Overlay& overlay) {
 }  // namespace
 
 std::vector<OverlayView> views_of(const Overlay& overlay) {
-  switch (overlay.kind) {
-    case Kind::compression: {
-      const auto [scale, unit] = stress_unit(overlay, "stress_pa");
-      return {over_strain("stress_pa", "stress_sigma_pa", "stress (" + unit + ")", scale, unit)};
-    }
-    case Kind::lateral_strain:
-      return {over_strain("lateral_strain", "sigma", "lateral strain (%)", 100.0, "%")};
-    case Kind::broken_bonds:
-      return {over_strain("count", "", "broken bonds", 1.0, "bonds")};
-    case Kind::modulus_series:
-      return {modulus_view(overlay)};
-    case Kind::bridge_stiffness: {
-      std::vector<OverlayView> views;
-      for (const char* name : {"kn", "kt"})
-        if (overlay.measured.contains(std::string(name) + "_n_per_m")) views.push_back(stiffness_view(name));
-      return views;
-    }
-    case Kind::bridge_diameters:
-      return {sample_view(overlay, "d_um", "bridge diameter d (\u00b5m)")};
-    case Kind::bridge_gaps:
-      return {sample_view(overlay, "gap_um", "gap (\u00b5m)")};
-    case Kind::displacements:
-      return {displacement_view(overlay)};
-    case Kind::coordination:
-      return {};
-  }
-  return {};
+  using Views = std::vector<OverlayView>;
+  static const std::map<const Kind*, std::function<Views(const Overlay&)>> all = {
+      {&kinds::compression(),
+       [](const Overlay& o) {
+         const auto [scale, unit] = stress_unit(o, "stress_pa");
+         return Views{over_strain("stress_pa", "stress_sigma_pa", "stress (" + unit + ")", scale, unit)};
+       }},
+      {&kinds::lateral_strain(),
+       [](const Overlay&) {
+         return Views{over_strain("lateral_strain", "sigma", "lateral strain (%)", 100.0, "%")};
+       }},
+      {&kinds::broken_bonds(),
+       [](const Overlay&) { return Views{over_strain("count", "", "broken bonds", 1.0, "bonds")}; }},
+      {&kinds::modulus_series(), [](const Overlay& o) { return Views{modulus_view(o)}; }},
+      {&kinds::bridge_stiffness(),
+       [](const Overlay& o) {
+         Views views;
+         for (const char* name : {"kn", "kt"})
+           if (o.measured.contains(std::string(name) + "_n_per_m")) views.push_back(stiffness_view(name));
+         return views;
+       }},
+      {&kinds::bridge_diameters(),
+       [](const Overlay& o) { return Views{sample_view(o, "d_um", "bridge diameter d (\u00b5m)")}; }},
+      {&kinds::bridge_gaps(), [](const Overlay& o) { return Views{sample_view(o, "gap_um", "gap (\u00b5m)")}; }},
+      {&kinds::displacements(), [](const Overlay& o) { return Views{displacement_view(o)}; }}};
+  const auto found = all.find(overlay.kind);
+  return found == all.end() ? Views{} : found->second(overlay);
 }
 
 }  // namespace pendular::diagnosis_report

@@ -28,6 +28,7 @@ Effect bridge_diameter_spread() {
           .highest = 60.0,
           .bank_from = 0.0,
           .bank_to = 30.0,
+          .draws = true,
           .body = spread};
 }
 

@@ -27,6 +27,7 @@ Effect bridge_gap_spread() {
           .highest = 20.0,
           .bank_from = 0.0,
           .bank_to = 6.0,
+          .draws = true,
           .body = spread};
 }
 

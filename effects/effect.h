@@ -59,6 +59,8 @@ struct Effect {
   double lowest, highest;     ///< accepted θ
   double bank_from, bank_to;  ///< θ of a typical bank of runs
   bool of_the_ends = false;   ///< θ is a length that counts as a share of the specimen's size
+  bool draws =
+      false;  ///< what it does differs from specimen to specimen of one θ: which bridges, which beads
   /// What the sample file states otherwise than it is.
   void (*sample)(Sample& sample, double theta) = nullptr;
   /// What beads that were measured are taken to be, with their standard errors: of effects on how single

@@ -26,6 +26,7 @@ Effect interface_strength() {
           .highest = 2.0,
           .bank_from = -0.6,
           .bank_to = 0.6,
+          .draws = true,
           .simulation = change};
 }
 

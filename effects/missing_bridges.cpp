@@ -22,6 +22,7 @@ Effect missing_bridges() {
           .highest = 0.9,
           .bank_from = 0.0,
           .bank_to = 0.3,
+          .draws = true,
           .packing = remove};
 }
 

@@ -27,6 +27,7 @@ Effect platen_roughness() {
           .bank_from = 0.0,
           .bank_to = 40.0,
           .of_the_ends = true,
+          .draws = true,
           .simulation = roughen};
 }
 

@@ -39,6 +39,7 @@ Effect position_error() {
           .highest = 20.0,
           .bank_from = 0.0,
           .bank_to = 5.0,
+          .draws = true,
           .beads = beads,
           .truth = truth,
           .reading = reading};

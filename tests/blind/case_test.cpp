@@ -147,7 +147,7 @@ TEST_F(Case, BeadsAreReportedWithTheErrorThatIsWithheld) {
     EXPECT_NEAR(std::sqrt(moved / n), bias ? 0.0 : 3e-6, 0.3e-6);
     EXPECT_NEAR(wider / n, bias ? 2e-6 : 0.0, 1e-12);
     // The specimen that is tested has beads that touch.
-    const TrueTest test = run_truth(plan, *split, believed, reported, 0, false, root / "scratch");
+    const TrueTest test = run_truth(plan, *split, believed, reported, 0, false, 0.0, root / "scratch");
     for (std::size_t k = 0; k < actual.beads.size(); ++k)
       EXPECT_LT((test.packing.beads[k].centre - actual.beads[k].centre).norm(), 1e-12);
   }

@@ -39,7 +39,7 @@ Curve tested(const std::string& mechanism, double theta, double max_strain) {
   plan.mechanism = mechanism, plan.mechanism_theta = theta;
   ScratchFolder folder;
   Curve curve;
-  curve.rows = run_truth(plan, split, sample, packing, 0, true, folder / "run").rows;
+  curve.rows = run_truth(plan, split, sample, packing, 0, true, 0.0, folder / "run").rows;
   double reached = 0.0;
   for (const auto& row : curve.rows) {
     curve.peak = std::max(curve.peak, row.stress);

@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/kinds/kind.h"
+#include "diagnosis/kinds/tools.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr double kUm = 1e6;
+constexpr double kRounding = 1e-12;  // what remains of the spread of equal numbers
+
+void check(const Sample& believed, Observation& observation, std::vector<std::string>&) {
+  const double diameter = kUm * believed.beads.diameter;
+  check_length(observation, "d_um", 0.01 * diameter, 0.99 * diameter);
+}
+
+/// Numbers with this mean and standard deviation, as many as asked for: what a sample of them comes to.
+std::vector<double> spread_about(double mean, double sd, std::size_t count) {
+  const double n = static_cast<double>(count);
+  std::vector<double> values;
+  double square = 0.0;
+  for (std::size_t k = 0; k < count; ++k) {
+    values.push_back((static_cast<double>(k) + 0.5) / n - 0.5);
+    square += values.back() * values.back();
+  }
+  const double scale = square > 0.0 ? sd / std::sqrt(square / (n - 1.0)) : 0.0;
+  for (double& value : values) value = mean + scale * value;
+  return values;
+}
+
+Columns simulate(const Observation& observation, const Simulated& simulated) {
+  const Sample& sample = simulated.sample;
+  const double spread =
+      std::max(kUm * sample.bridges.diameter_sd, effect_magnitude(sample, "bridge_diameter_spread"));
+  return {{"d_um", spread_about(kUm * sample.bridges.diameter, spread, observation.rows())}};
+}
+
+/// The spread is the bridges' own: stated errors are taken off.
+std::vector<Feature> landmarks(const Observation& observation, const Columns& columns) {
+  FeatureList list(observation, Scale::bridge);
+  const auto& d = columns.at("d_um");
+  const double middle = mean_of(d);
+  double square = 0.0, stated = 0.0;
+  for (double one : d) square += (one - middle) * (one - middle);
+  if (const auto sigma = columns.find("sigma_um"); sigma != columns.end())
+    for (double one : sigma->second) stated += one * one / static_cast<double>(d.size());
+  const double variance = square / static_cast<double>(d.size() - 1) - stated;
+  const double spread = std::sqrt(std::max(0.0, variance)) / middle;
+  list.ratio("diameter_mean", middle);
+  list.difference("diameter_spread", spread > kRounding ? spread : 0.0);
+  return list.take();
+}
+
+Columns perturbed(const Observation& observation, unsigned long seed) {
+  Columns columns = observation.columns;
+  draw_rows_again(columns, seed);
+  return columns;
+}
+
+Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
+  return errors_by_name(features, {{"diameter_mean", 0.005}, {"diameter_spread", 0.005}});
+}
+
+}  // namespace
+
+/// A sample of measured necks. Simulated: of the stated mean, and of the larger of the stated spread and that of
+/// the effect bridge_diameter_spread.
+const Kind& kinds::bridge_diameters() {
+  static const Kind kind{.name = "bridge_diameters",
+                         .required = {"d_um"},
+                         .optional = {"sigma_um"},
+                         .least_rows = 4,
+                         .scale = Scale::bridge,
+                         .of_bridges = true,
+                         .check = check,
+                         .simulate = simulate,
+                         .landmarks = landmarks,
+                         .perturbed = perturbed,
+                         .model_error = model_error};
+  return kind;
+}
+
+}  // namespace pendular::diagnosis

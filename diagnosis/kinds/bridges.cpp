@@ -1,0 +1,214 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "diagnosis/kinds/kind.h"
+#include "diagnosis/kinds/tools.h"
+#include "packing/packing.h"
+#include "packing/tables.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr double kUm = 1e6;
+constexpr double kSteep = 0.7, kFlat = 0.35;  // cosine of a pair's direction to the axis
+constexpr std::size_t kLeastPairs = 20, kLeastNecks = 10;
+constexpr double kShareError = 0.005, kNeckError = 0.005;  // of the simulation
+
+/// The network as columns: pairs, where they are, and whether a bridge joins them (NaN: undetermined).
+void read(Observation& observation, const CsvTable& table) {
+  if (observation.beads.empty())
+    bad_input("{}: found no key \"beads\" beside it, expected the beads that its pairs join",
+              observation.file.string());
+  const auto beads = read_beads(observation.beads);
+  read_bridges(observation.file, beads);
+  std::map<std::int64_t, const Bead*> by_id;
+  Vec3 low = beads.front().centre, high = low;
+  for (const auto& bead : beads) {
+    by_id[bead.id] = &bead;
+    low = low.cwiseMin(bead.centre), high = high.cwiseMax(bead.centre);
+  }
+  const Vec3 middle = 0.5 * (low + high);
+  const auto ids_i = table.integers("bead_i"), ids_j = table.integers("bead_j");
+  auto& columns = observation.columns;
+  for (std::size_t k = 0; k < table.rows(); ++k) {
+    const Bead &a = *by_id.at(ids_i[k]), &b = *by_id.at(ids_j[k]);
+    const Vec3 at = 0.5 * (a.centre + b.centre) - middle, way = (b.centre - a.centre).normalized();
+    const BridgeState state = table.has("state") ? bridge_state(table.texts("state")[k]) : BridgeState::bridge;
+    if (state == BridgeState::candidate)
+      bad_input("{}: column state: found \"candidate\", expected what was measured (pendular segment --bridges)",
+                table.where(k));
+    columns["joined"].push_back(state == BridgeState::undetermined ? std::nan("")
+                                                                   : double(state == BridgeState::bridge));
+    columns["cosine"].push_back(std::fabs(way.z()));
+    columns["height"].push_back(at.z() / (high.z() - low.z()) + 0.5);
+    columns["radius"].push_back(2.0 * std::hypot(at.x(), at.y()) / (high.x() - low.x()));
+    columns["separation_um"].push_back(kUm * gap(a, b));
+  }
+}
+
+void check(const Sample& believed, Observation& observation, std::vector<std::string>& warnings) {
+  const auto& joined = observation.column("joined");
+  const auto determined =
+      std::count_if(joined.begin(), joined.end(), [](double one) { return std::isfinite(one); });
+  if (static_cast<std::size_t>(determined) < kLeastPairs)
+    bad_input("{}: found {} pairs whose state is determined, expected at least {}", observation.file.string(),
+              determined, kLeastPairs);
+  if (std::none_of(joined.begin(), joined.end(), [](double one) { return one == 0.0; }))
+    warnings.push_back(observation.name +
+                       ": every pair is said to have a bridge; pairs without one tell as much and should be listed");
+  if (observation.has("bridge_diameter_um")) {
+    std::vector<double> necks;
+    for (double d : observation.column("bridge_diameter_um"))
+      if (d > 0.0) necks.push_back(d);
+    const double diameter = kUm * believed.beads.diameter;
+    Observation of_necks = observation;
+    of_necks.columns = {{"bridge_diameter_um", necks}};
+    if (!necks.empty()) check_length(of_necks, "bridge_diameter_um", 0.01 * diameter, 0.99 * diameter);
+  }
+}
+
+void course(const Observation& observation, Sample::Compression& course) {
+  const double strain = observation.numbers.at("strain");
+  course.frame_at.push_back(strain > 0.0 ? strain : kRestStrain);
+}
+
+/// The observed pairs as a simulated scan shows them; at rest also what broke before the frame counts.
+Columns simulate(const Observation& observation, const Simulated& simulated) {
+  const double strain = observation.numbers.at("strain");
+  const Frame& frame = frame_near(*simulated.test, strain > 0.0 ? strain : kRestStrain);
+  Columns columns = observation.columns;
+  const auto &i = columns.at("bead_i"), &j = columns.at("bead_j");
+  for (std::size_t k = 0; k < i.size(); ++k) {
+    const std::pair pair = std::minmax(static_cast<std::int64_t>(i[k]), static_cast<std::int64_t>(j[k]));
+    if (std::isnan(columns["joined"][k])) continue;
+    columns["joined"][k] =
+        frame.standing.contains(pair) || (strain <= 0.0 && frame.broken.contains(pair)) ? 1.0 : 0.0;
+  }
+  if (!columns.contains("bridge_diameter_um")) return columns;
+  // Of necks a test knows only what its sample says: mean and spread.
+  const auto& bridges = simulated.sample.bridges;
+  const double spread =
+      std::max(kUm * bridges.diameter_sd, effect_magnitude(simulated.sample, "bridge_diameter_spread"));
+  columns["neck_mean_um"] = {kUm * bridges.diameter};
+  columns["neck_spread_um"] = {spread};
+  return columns;
+}
+
+/// Share of the pairs of a class that bridges join.
+class Shares {
+ public:
+  Shares(FeatureList& list, const Columns& columns, double strain)
+      : list_(list), columns_(columns), strain_(strain) {}
+
+  template <typename Belongs>
+  void add(const std::string& name, const Belongs& belongs) {
+    const auto& joined = columns_.at("joined");
+    double pairs = 0.0, bridges = 0.0;
+    for (std::size_t k = 0; k < joined.size(); ++k)
+      if (std::isfinite(joined[k]) && belongs(k)) pairs += 1.0, bridges += joined[k];
+    if (pairs >= static_cast<double>(kLeastPairs)) list_.difference(name, bridges / pairs, 0.0, strain_);
+  }
+
+ private:
+  FeatureList& list_;
+  const Columns& columns_;
+  double strain_;
+};
+
+/// Mean and spread of the measured necks, their errors taken off; or what a simulation has in their place.
+void add_necks(FeatureList& list, const Columns& columns) {
+  if (!columns.contains("bridge_diameter_um")) return;
+  if (columns.contains("neck_mean_um")) {
+    list.ratio("neck_mean", columns.at("neck_mean_um").front());
+    return list.difference("neck_spread", columns.at("neck_spread_um").front() / columns.at("neck_mean_um").front());
+  }
+  std::vector<double> necks;
+  double errors = 0.0, square = 0.0;
+  const auto& d = columns.at("bridge_diameter_um");
+  const auto sigma = columns.find("sigma_bridge_diameter_um");
+  for (std::size_t k = 0; k < d.size(); ++k) {
+    if (!(d[k] > 0.0) || columns.at("joined")[k] != 1.0) continue;
+    necks.push_back(d[k]);
+    if (sigma != columns.end()) errors += sigma->second[k] * sigma->second[k];
+  }
+  if (necks.size() < kLeastNecks) return;
+  const double middle = mean_of(necks), n = static_cast<double>(necks.size());
+  for (double neck : necks) square += (neck - middle) * (neck - middle);
+  list.ratio("neck_mean", middle);
+  list.difference("neck_spread", std::sqrt(std::max(0.0, square / (n - 1.0) - errors / n)) / middle);
+}
+
+std::vector<Feature> landmarks(const Observation& observation, const Columns& columns) {
+  FeatureList list(observation, Scale::network);
+  const auto &cosine = columns.at("cosine"), &height = columns.at("height"), &radius = columns.at("radius"),
+             &separation = columns.at("separation_um");
+  std::vector<double> sorted = separation;
+  std::sort(sorted.begin(), sorted.end());
+  const double near = sorted[sorted.size() / 3], far = sorted[2 * sorted.size() / 3];
+  Shares shares(list, columns, observation.numbers.at("strain"));
+  shares.add("bridged_share", [](std::size_t) { return true; });
+  shares.add("bridged_steep", [&](std::size_t k) { return cosine[k] > kSteep; });
+  shares.add("bridged_flat", [&](std::size_t k) { return cosine[k] < kFlat; });
+  shares.add("bridged_low", [&](std::size_t k) { return height[k] < 1.0 / 3.0; });
+  shares.add("bridged_middle", [&](std::size_t k) { return std::fabs(height[k] - 0.5) < 1.0 / 6.0; });
+  shares.add("bridged_high", [&](std::size_t k) { return height[k] > 2.0 / 3.0; });
+  shares.add("bridged_rim", [&](std::size_t k) { return radius[k] > M_SQRT1_2; });
+  shares.add("bridged_near", [&](std::size_t k) { return separation[k] < near; });
+  shares.add("bridged_far", [&](std::size_t k) { return separation[k] > far; });
+  add_necks(list, columns);
+  return list.take();
+}
+
+/// States change by their stated probability, necks by their stated errors.
+Columns perturbed(const Observation& observation, unsigned long seed) {
+  Columns columns = observation.columns;
+  auto& joined = columns["joined"];
+  if (columns.contains("probability"))
+    for (std::size_t k = 0; k < joined.size(); ++k) {
+      const double probability = columns.at("probability")[k], wrong = joined[k] == 1.0 ? 1.0 - probability : probability;
+      if (std::isfinite(joined[k]) && random_uniform(seed, k) < wrong) joined[k] = 1.0 - joined[k];
+    }
+  if (columns.contains("bridge_diameter_um") && columns.contains("sigma_bridge_diameter_um"))
+    for (std::size_t k = 0; k < joined.size(); ++k)
+      if (columns["bridge_diameter_um"][k] > 0.0)
+        columns["bridge_diameter_um"][k] +=
+            columns.at("sigma_bridge_diameter_um")[k] * random_normal(seed + 1, k);
+  return columns;
+}
+
+Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
+  Eigen::MatrixXd errors = errors_by_name(features, {{"neck_mean", kNeckError}, {"neck_spread", kNeckError}});
+  for (std::size_t k = 0; k < features.size(); ++k)
+    if (features[k].name.starts_with("bridged")) {
+      const auto at = static_cast<Eigen::Index>(k);
+      errors(at, at) = kShareError * kShareError;
+    }
+  return errors;
+}
+
+}  // namespace
+
+/// The measured network of a scan, as `pendular segment --bridges` writes it, at rest or at a platen strain:
+/// compared by the shares of pairs that bridges join, over orientation, place and separation, and by the necks.
+const Kind& kinds::bridges() {
+  static const Kind kind{.name = "bridges",
+                         .required = {"bead_i", "bead_j"},
+                         .optional = {"gap_um", "sigma_gap_um", "probability", "bridge_diameter_um",
+                                      "sigma_bridge_diameter_um"},
+                         .least_rows = 20,
+                         .scale = Scale::network,
+                         .keys = {{"strain", {}, 0.0, 0.5, 0.0}, {"use", {"compare", "simulate"}}},
+                         .read = read,
+                         .check = check,
+                         .course = course,
+                         .simulate = simulate,
+                         .landmarks = landmarks,
+                         .perturbed = perturbed,
+                         .model_error = model_error};
+  return kind;
+}
+
+}  // namespace pendular::diagnosis

@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "diagnosis/displacement_signature.h"
+#include "diagnosis/kinds/kind.h"
+#include "diagnosis/kinds/tools.h"
+#include "diagnosis/similarity.h"
+#include "packing/tables.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr double kUm = 1e6;
+// Of the strain of a scan: frames that tell the displacements also where the strain is misread.
+constexpr double kShares[] = {0.4, 0.7, 1.0};
+constexpr double kElsewhere = 0.25;  // rms of motion over bead diameters, beyond which beads are others
+constexpr double kSamePlace = 0.1;   // likewise of places at rest
+
+using Names = std::array<const char*, 3>;
+constexpr Names kPlaces = {"x_um", "y_um", "z_um"}, kMotions = {"ux_um", "uy_um", "uz_um"};
+
+/// Columns in µm as vectors in m.
+std::vector<Vec3> vectors_in(const Columns& columns, const Names& names) {
+  std::vector<Vec3> all(columns.at(names[0]).size());
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t k = 0; k < all.size(); ++k)
+      all[k][static_cast<int>(axis)] = columns.at(names[axis])[k] / kUm;
+  return all;
+}
+
+std::vector<Vec3> places_in(const Columns& columns) {
+  return vectors_in(columns, kPlaces);
+}
+
+std::vector<Vec3> motions_in(const Columns& columns) {
+  return vectors_in(columns, kMotions);
+}
+
+/// The rows of one scan.
+Columns rows_at(const Columns& columns, double strain) {
+  Columns rows;
+  const auto& strains = columns.at("strain");
+  for (const auto& [name, column] : columns)
+    for (std::size_t k = 0; k < column.size(); ++k)
+      if (strains[k] == strain) rows[name].push_back(column[k]);
+  return rows;
+}
+
+std::set<double> scans_in(const Columns& columns) {
+  const auto& strain = columns.at("strain");
+  return {strain.begin(), strain.end()};
+}
+
+/// The ids and places are those of the specimen's table.
+void read(Observation& observation, const CsvTable& table) {
+  if (observation.beads.empty()) return;
+  std::map<std::int64_t, Vec3> known;
+  double diameter = 0.0;
+  for (const auto& bead : read_beads(observation.beads))
+    known[bead.id] = bead.centre, diameter = std::max(diameter, bead.diameter);
+  const auto ids = table.integers("bead_id");
+  const auto rest = places_in(observation.columns);
+  double square = 0.0;
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const auto found = known.find(ids[k]);
+    if (found == known.end())
+      bad_input("{}: column bead_id: found bead {}, expected one of those of {}", table.where(k), ids[k],
+                observation.beads.string());
+    square += (rest[k] - found->second).squaredNorm() / static_cast<double>(ids.size());
+  }
+  if (std::sqrt(square) > kSamePlace * diameter)
+    bad_input(
+        "{}: found beads {:.3g} um (rms) from where {} has them, expected the same places at rest (another "
+        "specimen, or a table that is turned or mirrored?)",
+        observation.file.string(), kUm * std::sqrt(square), observation.beads.string());
+}
+
+void check(const Sample& believed, Observation& observation, std::vector<std::string>&) {
+  const std::string file = observation.file.string();
+  check_strain(observation, "strain");
+  for (double strain : scans_in(observation.columns)) {
+    if (strain <= 0.0)
+      bad_input("{}: strain: found {:.4g}, expected the platen strain of a second scan, above 0", file, strain);
+    const Columns rows = rows_at(observation.columns, strain);
+    if (std::set<double>(rows.at("bead_id").begin(), rows.at("bead_id").end()).size() !=
+        rows.at("bead_id").size())
+      bad_input("{}: column bead_id: found a bead twice in the scan at strain {:.4g}", file, strain);
+    double square = 0.0;
+    const auto motion = without_rigid_motion(places_in(rows), motions_in(rows));
+    for (const Vec3& u : motion) square += u.squaredNorm() / static_cast<double>(motion.size());
+    if (std::sqrt(square) > std::max(kElsewhere, 0.5 * strain * believed.specimen.height / believed.beads.diameter) *
+                                believed.beads.diameter)
+      bad_input(
+          "{}: found displacements of {:.3g} um (rms) beside any rigid motion at strain {:.4g}, expected those "
+          "of one specimen (beads of another, mirrored, or in another unit?)",
+          file, kUm * std::sqrt(square), strain);
+  }
+}
+
+void course(const Observation& observation, Sample::Compression& course) {
+  course.frame_at.push_back(kRestStrain);  // as `bridges` at rest asks for: they share their runs
+  for (double strain : scans_in(observation.columns))
+    for (double share : kShares) course.frame_at.push_back(share * strain);
+}
+
+/// What a simulated scan shows of the observed beads, or of all where none were measured.
+Columns simulate(const Observation& observation, const Simulated& simulated) {
+  Columns columns;
+  for (double strain : scans_in(observation.columns)) {
+    const Frame& frame = frame_near(*simulated.test, strain);
+    const double scale = strain / frame.strain;
+    std::map<std::int64_t, std::size_t> index;
+    for (std::size_t k = 0; k < frame.ids.size(); ++k) index[frame.ids[k]] = k;
+    const auto ids = rows_at(observation.columns, strain).at("bead_id");
+    const auto add = [&](std::size_t k) {
+      columns["strain"].push_back(strain);
+      columns["bead_id"].push_back(static_cast<double>(frame.ids[k]));
+      for (int axis = 0; axis < 3; ++axis) {
+        columns[kPlaces[static_cast<std::size_t>(axis)]].push_back(kUm * frame.rest[k][axis]);
+        columns[kMotions[static_cast<std::size_t>(axis)]].push_back(kUm * scale * frame.displacement[k][axis]);
+      }
+    };
+    if (observation.beads.empty())
+      for (std::size_t k = 0; k < frame.ids.size(); ++k) add(k);
+    else
+      for (double id : ids) add(index.at(static_cast<std::int64_t>(id)));
+  }
+  return columns;
+}
+
+std::vector<Feature> landmarks(const Observation& observation, const Columns& columns) {
+  FeatureList list(observation, Scale::network);
+  Columns last = rows_at(columns, *scans_in(columns).rbegin());
+  const auto motion = without_rigid_motion(places_in(last), motions_in(last));
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      last[kMotions[static_cast<std::size_t>(axis)]][k] = kUm * motion[k][axis];
+  for (const auto& [name, value] : displacement_signature(last)) list.difference(name, value);
+  return list.take();
+}
+
+Eigen::VectorXd field(const Observation&, const Columns& columns) {
+  std::vector<double> all;
+  for (double strain : scans_in(columns)) {
+    const Columns rows = rows_at(columns, strain);
+    for (const Vec3& u : without_rigid_motion(places_in(rows), motions_in(rows)))
+      all.insert(all.end(), u.data(), u.data() + 3);
+  }
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+Columns perturbed(const Observation& observation, unsigned long seed) {
+  Columns columns = observation.columns;
+  if (!columns.contains("sigma_um")) {
+    draw_rows_again(columns, seed);
+    return columns;
+  }
+  for (const char* name : {"ux_um", "uy_um", "uz_um"})
+    add_noise(columns[name], columns.at("sigma_um"), random_bits(seed, static_cast<unsigned char>(name[1])));
+  return columns;
+}
+
+Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
+  return errors_by_name(features,
+                        {{"deviatoric_share", 0.02}, {"tilt_share", 0.02}, {"wandering", 0.05}});
+}
+
+}  // namespace
+
+/// Beads followed from a scan at rest to scans under load. Rigid motion and a change of scale are fitted and
+/// taken off, of what was measured and of what is simulated alike.
+const Kind& kinds::displacements() {
+  static const Kind kind{.name = "displacements",
+                         .required = {"strain", "bead_id", "x_um", "y_um", "z_um", "ux_um", "uy_um", "uz_um"},
+                         .optional = {"sigma_um"},
+                         .least_rows = 20,
+                         .scale = Scale::network,
+                         .read = read,
+                         .check = check,
+                         .course = course,
+                         .simulate = simulate,
+                         .landmarks = landmarks,
+                         .field = field,
+                         .perturbed = perturbed,
+                         .model_error = model_error};
+  return kind;
+}
+
+}  // namespace pendular::diagnosis
