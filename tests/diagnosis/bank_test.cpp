@@ -39,7 +39,7 @@ TEST(Bank, RunsEveryEffectAtThirdsAndInBothDirections) {
   EXPECT_TRUE(plan.absent.contains("funicular_bridges"));       // no polymer above W*
   std::set<int> members;
   for (const auto& point : plan.points) members.insert(point.member);
-  EXPECT_EQ(members.size(), 5u);
+  EXPECT_EQ(members.size(), 6u);
 }
 
 TEST(Bank, LeavesOutWhatItIsAsked) {
