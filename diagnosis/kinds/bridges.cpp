@@ -89,7 +89,8 @@ Columns simulate(const Observation& observation, const Simulated& simulated) {
   Columns columns = observation.columns;
   const auto &i = columns.at("bead_i"), &j = columns.at("bead_j");
   for (std::size_t k = 0; k < i.size(); ++k) {
-    const std::pair pair = std::minmax(static_cast<std::int64_t>(i[k]), static_cast<std::int64_t>(j[k]));
+    const std::pair<std::int64_t, std::int64_t> pair =
+        std::minmax({static_cast<std::int64_t>(i[k]), static_cast<std::int64_t>(j[k])});
     if (std::isnan(columns["joined"][k])) continue;
     columns["joined"][k] =
         frame.standing.contains(pair) || (strain <= 0.0 && frame.broken.contains(pair)) ? 1.0 : 0.0;

@@ -193,9 +193,9 @@ INSTANTIATE_TEST_SUITE_P(
             moved([](Followed& row) { row.motion = {row.motion.z(), row.motion.y(), -row.motion.x()}; }), kBeads,
             {"degrees to z", "turned"}},
         Bad{"MotionOfTheOtherSign", "displacements", moved([](Followed& row) { row.motion = -row.motion; }), kBeads,
-            {"90 degrees to z", "sign"}},
+            {"degrees to z", "sign"}},
         Bad{"MotionMirroredInThePlane", "displacements",
-            moved([](Followed& row) { row.motion.z() = -row.motion.z(); }), kBeads, {"90 degrees to z", "mirrored"}},
+            moved([](Followed& row) { row.motion.z() = -row.motion.z(); }), kBeads, {"degrees to z", "mirrored"}},
         Bad{"PlacesOfTheSecondScanMirrored", "displacements", moved([](Followed& row) {
               const Vec3 now = row.at + row.motion;
               row.motion = Vec3(-now.x(), now.y(), now.z()) - row.at;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "diagnosis/reduced_space.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -205,7 +206,7 @@ TEST(Evidence, OutsideIsWhatResponsesDoNotSpan) {
   std::vector<Signature> all = effects(2, 8.0);
   for (int k = 0; k < 2; ++k) all[static_cast<std::size_t>(k)].powers = {8.0 * Eigen::VectorXd::Unit(kFeatures, k)};
   const Gap gap = gap_of(Eigen::VectorXd::Zero(kFeatures));
-  EXPECT_EQ(span_of(gap, all), 2);
+  EXPECT_EQ(ReducedSpace(gap, all).size(), 2);
   const Eigen::VectorXd value = draw(3);
   EXPECT_NEAR(outside_of(gap, all, {value}).front(), value.tail(kFeatures - 2).squaredNorm(), 1e-9);
 }
