@@ -58,6 +58,7 @@ void run(const Options& options) {
   check(options.making);
   const auto experiment = diagnosis::read_experiment(options.file);
   diagnosis::require_features(experiment);
+  for (const auto& warning : experiment.warnings) warn(warning);
   if (options.dry_run) return tell_cost(options, experiment);
   const fs::path beads = options.making.store_folder(options.common) / "measured";
   const auto plan = diagnosis::plan_bank(experiment, bank_options(options), beads);
