@@ -57,11 +57,6 @@ std::vector<double> magnitudes_of(const effects::Effect& effect, int levels, con
   return found;
 }
 
-bool reads_only(const effects::Effect& effect) {
-  return effect.rows && !effect.sample && !effect.truth && !effect.packing && !effect.body &&
-         !effect.simulation && !effect.evolution;
-}
-
 /// Why an effect cannot act in any of these tests; empty where it can.
 std::string why_inert(const effects::Effect& effect, const std::vector<Condition>& conditions) {
   if (effect.id != "funicular_bridges") return "";
@@ -104,7 +99,7 @@ class Planner {
       if (options_.leave_out.contains(effect.id)) plan_.absent[effect.id] = "left out as asked";
       if (const std::string why = why_inert(effect, plan_.conditions); !why.empty())
         plan_.absent.emplace(effect.id, why);
-      if (!plan_.absent.contains(effect.id) && !reads_only(effect)) add_effect(effect, scanned);
+      if (!plan_.absent.contains(effect.id) && !effect.reads_only()) add_effect(effect, scanned);
     }
     int turn = 0;
     for (const auto& [key, sd] : floating_inputs(experiment_)) {

@@ -34,7 +34,7 @@ class Bank {
       const auto& [point, condition] = plan.runs[made_ + k];
       const DesignPoint& of = plan.points[point];
       auto& test = tests_[point][condition];
-      test = read_outcome(outcomes[k], condition, purpose_of(of.changes), diagnosis_.ledger);
+      test = read_outcome(outcomes[k], condition, "", of.changes, diagnosis_.ledger);
       if (of.id.empty() && test) ++baselines;
       if (of.id.empty() && !test) why = outcomes[k].message;
     }

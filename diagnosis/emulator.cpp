@@ -12,7 +12,7 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr int kDegree = 2;
+constexpr int kDegree = 2, kExactDegree = 4;
 constexpr double kLeastRoom = 0.15;      // that a fit leaves a residual, of its variance
 constexpr double kOutlier = 3.0, kOfMedian = 1.4826;
 constexpr double kOfTheFit = 0.3;        // the fit's own variance over the scatter's
@@ -21,7 +21,7 @@ constexpr double kDrawn = 0.35;          // share of a covariance that goes to i
 /// Runs of one id, less the baselines of their members.
 struct Group {
   std::string id;
-  bool draws = false;
+  bool draws = false, exact = false;
   std::vector<double> theta;
   std::vector<Eigen::VectorXd> change;
 
@@ -31,7 +31,8 @@ struct Group {
     return most;
   }
   int degree() const {
-    return std::set<double>(theta.begin(), theta.end()).size() >= 3 ? kDegree : 1;
+    const auto levels = std::set<double>(theta.begin(), theta.end()).size();
+    return levels < 3 ? 1 : exact && levels > kExactDegree ? kExactDegree : kDegree;
   }
 };
 
@@ -59,7 +60,7 @@ std::vector<Group> groups_of(const std::vector<DesignRun>& runs, const Responses
   for (const auto& run : runs) {
     if (run.id.empty()) continue;
     auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.id == run.id; });
-    if (group == groups.end()) group = groups.insert(groups.end(), {run.id, run.draws, {}, {}});
+    if (group == groups.end()) group = groups.insert(groups.end(), {run.id, run.draws, run.exact, {}, {}});
     const auto own = std::find(responses.members.begin(), responses.members.end(), run.member);
     Eigen::VectorXd baseline = responses.mean;
     if (own != responses.members.end()) {
@@ -167,14 +168,15 @@ Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index feature
   for (const auto& group : groups_of(runs, responses)) {
     Eigen::MatrixXd left;
     Signature signature = fit_group(group, features, left);
-    if (group.draws) {
+    if (!group.draws && !group.exact) {
+      scatter.push_back(left);
+      parameters += group.degree();
+    }
+    if (!group.exact) {
       for (Eigen::Index r = 0; r < left.rows(); ++r)
         left.row(r) /= std::fabs(group.theta[static_cast<std::size_t>(r)]) / group.scale();
       signature.draws = shrunk(pairwise(left, 0.0));
       signature.drawn_at = group.scale();
-    } else {
-      scatter.push_back(left);
-      parameters += group.degree();
     }
     responses.signatures.push_back(std::move(signature));
   }
@@ -182,6 +184,8 @@ Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index feature
   responses.freedom = std::max(1.0, static_cast<double>(left.rows()) - parameters);
   draw_in_outliers(left);
   responses.within = pairwise(left, 0.0);
+  for (auto& signature : responses.signatures)
+    if (signature.draws.size() > 0) signature.draws = positive_part(signature.draws - responses.within);
   responses.between = pairwise(responses.offsets.rowwise() - responses.mean.transpose(), 1.0);
   return responses;
 }

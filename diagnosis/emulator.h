@@ -17,6 +17,7 @@ struct DesignRun {
   double theta = 0.0;      ///< by how much
   Eigen::VectorXd values;  ///< as they are compared; NaN where the run does not show a feature
   bool draws = false;      ///< what is changed differs from draw to draw
+  bool exact = false;      ///< what is changed has no scatter: the same run, read otherwise
 };
 
 /// What a whole design of runs tells: value = member's baseline + Σ θ^k c_k of what was changed + scatter.
@@ -32,8 +33,8 @@ struct Responses {
 };
 
 /// Each run less the baseline of its member (the members' mean where that failed), fitted by a quadratic in θ for
-/// an id with three or more magnitudes, by a line for one with fewer. What an effect that draws leaves is its
-/// own covariance (Signature::draws), what others leave is the scatter. Covariances are over the runs that show
+/// an id with three or more magnitudes, by a line for one with fewer. What effects that do not draw leave is the
+/// scatter; what any leaves beyond that is its own covariance (Signature::draws). Covariances are over the runs that show
 /// both features. Runs that a polynomial cannot follow count no more than three median deviations.
 Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index features);
 

@@ -119,16 +119,19 @@ class Explored {
       Eigen::VectorXd sum = Eigen::VectorXd::Zero(space_.size());
       Eigen::VectorXd product = Eigen::VectorXd::Constant(space_.size(), cells.size() > 1 ? 1.0 : 0.0);
       Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(space_.size(), space_.size());
+      double outside = 0.0;
       for (std::size_t e = 0; e < cells.size(); ++e) {
         const Eigen::VectorXd response = reduced_[e]->at(cells[e].theta);
         sum += response;
         product = product.cwiseProduct(response);
         covariance += covariance_of(*reduced_[e], cells[e].theta, response);
+        outside += std::pow(reduced_[e]->outside, 2) * response.squaredNorm() +
+                   std::pow(cells[e].theta / reduced_[e]->drawn_at, 2) * reduced_[e]->drawn_outside;
       }
       if (together_)
         sum += cells[0].theta / together_->theta_a * cells[1].theta / together_->theta_b * together_->beyond;
       covariance.diagonal() += std::pow(together_ ? kRunTogether : kTogether, 2) * product.cwiseAbs();
-      place.fit = space_.fit(sum, covariance);
+      place.fit = space_.fit(sum, covariance, outside);
       places_.push_back(std::move(place));
     }
   }
@@ -194,7 +197,7 @@ double beside_unknown(const ReducedSpace& space, const ReducedSpace::Fit& fit) {
 
 Weighed none(const ReducedSpace& space) {
   const auto fit =
-      space.fit(Eigen::VectorXd::Zero(space.size()), Eigen::MatrixXd::Zero(space.size(), space.size()));
+      space.fit(Eigen::VectorXd::Zero(space.size()), Eigen::MatrixXd::Zero(space.size(), space.size()), 0.0);
   return {{"none", fit.log_likelihood, 0.0, {}, fit.misfit}, beside_unknown(space, fit)};
 }
 

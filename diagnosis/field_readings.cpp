@@ -128,7 +128,7 @@ std::optional<FieldReadings> field_readings(const Experiment& experiment, const 
     std::vector<Eigen::VectorXd> of_run;
     for (std::size_t s = 0; s < scans.size(); ++s)
       of_run.push_back(statistics[s](fields[k]->segment(parts[s].first, parts[s].size) +
-                                     statistics[s].noise(1000 + static_cast<unsigned long>(k))));
+                                     statistics[s].noise(1000 + static_cast<unsigned long>(plan.points[k].member))));
     readings.of_runs.push_back(joined(of_run));
     if (plan.points[k].id.empty()) baselines.push_back(readings.of_runs.back());
   }

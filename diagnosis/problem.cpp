@@ -1,12 +1,16 @@
 #include "diagnosis/problem.h"
 
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "base/median.h"
+#include "base/random.h"
 #include "diagnosis/field_readings.h"
+#include "diagnosis/kinds/tools.h"
 #include "diagnosis/model_error.h"
 #include "diagnosis/reduced_space.h"
 #include "effects/list.h"
@@ -20,14 +24,14 @@ constexpr double kScale = 0.5, kLeast = 0.12;  // usual and least magnitudes, ov
 // Of responses: a polynomial through three magnitudes is not the effect. Beads that were measured wrongly are
 // only nearly found again.
 constexpr double kError = 0.07, kErrorOfBeads = 0.4;
-constexpr int kReadLevels = 6, kReadDegree = 4;  // of effects that only change what instruments read
+constexpr int kReadLevels = 6, kReadMembers = 3;  // of effects that only change what instruments read
 
 std::string label(const ObservedFeatures& observed, std::size_t k) {
   return fmt::format("{}: {}", observed.features[k].observation, observed.features[k].name);
 }
 
 /// Mean of the rows that are finite, feature by feature.
-Eigen::VectorXd mean_of(const std::vector<Eigen::VectorXd>& rows, Eigen::Index size) {
+Eigen::VectorXd mean_row(const std::vector<Eigen::VectorXd>& rows, Eigen::Index size) {
   Eigen::VectorXd mean = Eigen::VectorXd::Constant(size, std::nan(""));
   for (Eigen::Index f = 0; f < size; ++f) {
     double sum = 0.0, count = 0.0;
@@ -38,15 +42,32 @@ Eigen::VectorXd mean_of(const std::vector<Eigen::VectorXd>& rows, Eigen::Index s
   return mean;
 }
 
-/// The rows as an instrument with an effect would have read them, and the frames by the strain that it shows.
-void read_otherwise(SimulatedTest& test, const effects::Effect& effect, double theta) {
-  const auto before = test.rows;
-  effect.rows(test.rows, test.gauge, theta);
-  for (auto& frame : test.frames) {
-    std::size_t k = 0;
-    while (k + 1 < before.size() && before[k].strain < frame.strain) ++k;
-    frame.strain += test.rows[k].strain - before[k].strain;
+/// A bank and its tests.
+struct Bank {
+  BankPlan plan;
+  std::vector<SimulatedTests> tests;
+};
+
+/// With what instruments would have made of the first baselines that have an effect on nothing but the reading.
+Bank with_readings(const BankPlan& plan, const std::vector<SimulatedTests>& tests) {
+  Bank bank{plan, tests};
+  for (const auto& effect : effects::all_effects()) {
+    if (!effect.reads_only() || plan.absent.contains(effect.id)) continue;
+    for (int level = 1; level <= kReadLevels; ++level) {
+      const double theta = kBeyond * effect.bank_to * level / kReadLevels;
+      for (std::size_t k = 0; k < plan.points.size(); ++k) {
+        DesignPoint point = plan.points[k];
+        if (!point.id.empty() || point.whole == plan.scaled() || point.member > kReadMembers) continue;
+        point.id = effect.id, point.theta = theta, point.changes = {{effect.id, theta}};
+        SimulatedTests read = tests[k];
+        for (auto& test : read)
+          if (test) effect.rows(test->rows, test->gauge, theta), read_frames(effect, theta, *test);
+        bank.plan.points.push_back(point);
+        bank.tests.push_back(std::move(read));
+      }
+    }
   }
+  return bank;
 }
 
 /// Whether what is changed differs from draw to draw. What pairs leave is no scatter of the members either.
@@ -55,6 +76,19 @@ bool draws_in(const Changes& changes) {
   return changes.size() > 1 || std::any_of(all.begin(), all.end(), [&](const auto& effect) {
            return effect.draws && changes.contains(effect.id);
          });
+}
+
+bool read_only_in(const Changes& changes) {
+  const auto& all = effects::all_effects();
+  return changes.size() == 1 && std::any_of(all.begin(), all.end(), [&](const auto& effect) {
+           return effect.reads_only() && changes.contains(effect.id);
+         });
+}
+
+/// A matrix whose product with its transpose is a covariance.
+Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 /// Builds a comparison from the runs.
@@ -109,12 +143,10 @@ class Learner {
   void sort_runs(std::vector<Eigen::VectorXd>& values) {
     for (std::size_t k = 0; k < plan_.points.size(); ++k) {
       const DesignPoint& point = plan_.points[k];
-      if (point.whole && point.id.empty()) {
-        baselines_.push_back(values[k]);
-        baseline_points_.push_back(k);
-      }
+      if (point.whole && point.id.empty()) baselines_.push_back(values[k]);
       if (point.whole == scaled_) continue;
-      design_.push_back({point.member, point.id, point.theta, std::move(values[k]), draws_in(point.changes)});
+      design_.push_back({point.member, point.id, point.theta, std::move(values[k]), draws_in(point.changes),
+                         read_only_in(point.changes)});
       scans_only_.push_back(point.scans_only);
     }
   }
@@ -129,7 +161,7 @@ class Learner {
 
   void choose_shown() {
     std::vector<std::size_t> kept;
-    const Eigen::VectorXd mean = mean_of(baselines_, size());
+    const Eigen::VectorXd mean = mean_row(baselines_, size());
     for (std::size_t f = 0; f < found_.observed.features.size(); ++f) {
       const auto at = static_cast<Eigen::Index>(f);
       int shown = 0, asked = 0;
@@ -151,7 +183,7 @@ class Learner {
 
   void fit() {
     const Responses responses = fit_responses(design_, size());
-    found_.simulated = mean_of(baselines_, size());
+    found_.simulated = mean_row(baselines_, size());
     found_.gap.values = found_.observed.values() - found_.simulated;
     set_signatures(responses);
     set_together(responses);
@@ -164,7 +196,8 @@ class Learner {
     for (const auto& effect : effects::all_effects()) {
       if (plan_.absent.contains(effect.id)) continue;
       const Signature* learnt = responses.find(effect.id);
-      Signature signature = learnt ? *learnt : read_signature(effect);
+      if (!learnt) continue;
+      Signature signature = *learnt;
       signature.lowest = std::max(effect.lowest, kBeyond * effect.bank_from);
       signature.highest = std::min(effect.highest, kBeyond * effect.bank_to);
       const double largest = std::max(std::fabs(effect.bank_from), std::fabs(effect.bank_to));
@@ -189,27 +222,6 @@ class Learner {
       }
       found_.together.push_back(std::move(pair));
     }
-  }
-
-  /// Of an effect that only changes what instruments read: from the baselines, read otherwise.
-  Signature read_signature(const effects::Effect& effect) {
-    std::vector<double> thetas;
-    std::vector<Eigen::VectorXd> changes;
-    for (int level = 1; level <= kReadLevels; ++level) {
-      const double theta = kBeyond * effect.bank_to * level / kReadLevels;
-      std::vector<Eigen::VectorXd> rows;
-      for (std::size_t b = 0; b < baselines_.size(); ++b) {
-        SimulatedTests read = tests_[baseline_points_[b]];
-        for (auto& test : read)
-          if (test) read_otherwise(*test, effect, theta);
-        rows.push_back(simulated_features(experiment_, plan_.conditions, found_.observed, read,
-                                          {{effect.id, theta}}) -
-                       baselines_[b]);
-      }
-      thetas.push_back(theta);
-      changes.push_back(mean_of(rows, size()).unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; }));
-    }
-    return exact_signature(effect.id, thetas, changes, kReadDegree);
   }
 
   void set_believed(const Responses& responses) {
@@ -253,12 +265,37 @@ class Learner {
     found_.gap.freedom = scatter.freedom / std::max(1e-6, share * share);
   }
 
-  /// What the runs themselves have outside the span of the responses.
+  /// What the runs themselves have outside the span of the responses: those without an effect as it is, the
+  /// others as a share of what their effect does within it.
   void set_outside(const Responses& responses) {
-    std::vector<Eigen::VectorXd> values;
+    const ReducedSpace space(found_.gap, found_.signatures);
+    const auto& observed = found_.observed;
+    const Eigen::MatrixXd noise = root_of(observed.measurement + observed.model);  // which runs do not have
+    const auto outside = [&](const DesignRun& run) {
+      Eigen::VectorXd drawn(size());
+      for (Eigen::Index k = 0; k < size(); ++k)
+        drawn[k] = random_normal(static_cast<std::uint64_t>(&run - design_.data()), static_cast<std::uint64_t>(k));
+      return space.outside(run.values - responses.mean + noise * drawn);
+    };
     for (const auto& run : design_)
-      if (run.values.allFinite()) values.push_back(run.values - responses.mean);
-    found_.gap.outside = outside_of(found_.gap, found_.signatures, values);
+      if (run.values.allFinite() && !signature_of(run.id) && run.id.find('+') == std::string::npos)
+        found_.gap.outside.push_back(outside(run));
+    if (found_.gap.outside.empty()) return;
+    const double usual = median(found_.gap.outside);
+    for (auto& signature : found_.signatures) {
+      std::vector<double> shares;
+      for (const auto& run : design_)
+        if (run.id == signature.id && run.values.allFinite())
+          shares.push_back(std::max(0.0, outside(run) - usual) /
+                           (1.0 + space.reduced(run.values - responses.mean).squaredNorm()));
+      if (!shares.empty()) signature.outside = std::max(signature.outside, std::sqrt(mean_of(shares)));
+    }
+  }
+
+  const Signature* signature_of(const std::string& id) const {
+    for (const auto& signature : found_.signatures)
+      if (signature.id == id) return &signature;
+    return nullptr;
   }
 
   const Experiment& experiment_;
@@ -271,7 +308,6 @@ class Learner {
   std::vector<DesignRun> design_;
   std::vector<bool> scans_only_;            // of its runs
   std::vector<Eigen::VectorXd> baselines_;  // of specimens of the observed size
-  std::vector<std::size_t> baseline_points_;
 };
 
 }  // namespace
@@ -279,8 +315,9 @@ class Learner {
 Problem problem_of(const Experiment& experiment, const BankPlan& plan,
                    const std::vector<SimulatedTests>& tests) {
   Problem problem;
-  problem.landmarks = Learner(Level::landmarks, experiment, plan, tests, problem.warnings).learn();
-  problem.readings = Learner(Level::readings, experiment, plan, tests, problem.warnings).learn();
+  const Bank bank = with_readings(plan, tests);
+  problem.landmarks = Learner(Level::landmarks, experiment, bank.plan, bank.tests, problem.warnings).learn();
+  problem.readings = Learner(Level::readings, experiment, bank.plan, bank.tests, problem.warnings).learn();
   return problem;
 }
 

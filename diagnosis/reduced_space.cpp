@@ -13,6 +13,7 @@ constexpr Eigen::Index kMostDirections = 45;
 constexpr double kLeastDirection = 0.5;  // singular value, in units of the noise
 constexpr double kLongest = 8.0;         // a response counts no more than this for the directions
 constexpr int kSpanned = 3;              // magnitudes of each sign whose responses span
+constexpr double kFresh = 1.3;           // squares outside, of an observation over those of runs learnt from
 constexpr std::size_t kLeastKnown = 8;   // runs from which what is outside is learnt
 
 }  // namespace
@@ -27,16 +28,14 @@ ReducedSpace::ReducedSpace(const Gap& gap, const std::vector<Signature>& signatu
   learn_outside(gap.outside);
 }
 
-Eigen::MatrixXd ReducedSpace::reduced_covariance(const Eigen::MatrixXd& covariance) const {
-  const Eigen::MatrixXd half = factor_.matrixL().solve(covariance);
-  const Eigen::MatrixXd whole = factor_.matrixL().solve(half.transpose());
-  return directions_.transpose() * whole * directions_;
-}
-
 Signature ReducedSpace::reduced(const Signature& signature) const {
   Signature found = signature;
   for (auto& power : found.powers) power = reduced(power);
-  if (signature.draws.size() > 0) found.draws = reduced_covariance(signature.draws);
+  if (signature.draws.size() == 0) return found;
+  const Eigen::MatrixXd half = factor_.matrixL().solve(signature.draws);
+  const Eigen::MatrixXd whole = factor_.matrixL().solve(half.transpose());
+  found.draws = directions_.transpose() * whole * directions_;
+  found.drawn_outside = std::max(0.0, whole.trace() - found.draws.trace());
   return found;
 }
 
@@ -44,19 +43,23 @@ double ReducedSpace::outside(const Eigen::VectorXd& v) const {
   return std::max(0.0, whiten(v).squaredNorm() - reduced(v).squaredNorm());
 }
 
-ReducedSpace::Fit ReducedSpace::fit(const Eigen::VectorXd& response, const Eigen::MatrixXd& covariance) const {
+ReducedSpace::Fit ReducedSpace::fit(const Eigen::VectorXd& response, const Eigen::MatrixXd& covariance,
+                                    double outside) const {
   Eigen::MatrixXd wider = covariance;
   wider.diagonal().array() += 1.0;
   const Eigen::LLT<Eigen::MatrixXd> factor(wider);
-  const double misfit = factor.matrixL().solve(values_ - response).squaredNorm();
-  const double log_volume = factor.matrixLLT().diagonal().array().log().sum();
-  return {density(misfit, log_volume) + log_outside(1.0), misfit, log_volume};
+  Fit fit;
+  fit.misfit = factor.matrixL().solve(values_ - response).squaredNorm();
+  fit.log_volume = factor.matrixLLT().diagonal().array().log().sum();
+  if (dimensions_ > 0.0) fit.widening = std::sqrt(1.0 + outside / (outside_scale_ * outside_freedom_));
+  fit.log_likelihood = widened(fit, 1.0);
+  return fit;
 }
 
 double ReducedSpace::widened(const Fit& fit, double factor) const {
   return density(fit.misfit / (factor * factor),
                  fit.log_volume + static_cast<double>(size()) * std::log(factor)) +
-         log_outside(factor);
+         log_outside(factor * fit.widening);
 }
 
 void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {
@@ -90,7 +93,7 @@ void ReducedSpace::learn_outside(const std::vector<double>& known) {
   for (double one : known) mean += one / n;
   for (double one : known) square += (one - mean) * (one - mean) / (n - 1.0);
   if (!(mean > 0.0 && square > 0.0)) return;
-  outside_scale_ = square / (2.0 * mean);
+  outside_scale_ = kFresh * square / (2.0 * mean);
   outside_freedom_ = 2.0 * mean * mean / square;
 }
 
@@ -106,14 +109,6 @@ double ReducedSpace::density(double squared, double log_volume) const {
   if (freedom_ <= 0.0) return -log_volume - 0.5 * squared - 0.5 * p * std::log(2.0 * M_PI);
   return -log_volume + std::lgamma(0.5 * (freedom_ + p)) - std::lgamma(0.5 * freedom_) -
          0.5 * p * std::log(M_PI * freedom_) - 0.5 * (freedom_ + p) * std::log1p(squared / freedom_);
-}
-
-std::vector<double> outside_of(const Gap& gap, const std::vector<Signature>& signatures,
-                               const std::vector<Eigen::VectorXd>& values) {
-  const ReducedSpace space(gap, signatures);
-  std::vector<double> squares;
-  for (const auto& one : values) squares.push_back(space.outside(one));
-  return squares;
 }
 
 }  // namespace pendular::diagnosis

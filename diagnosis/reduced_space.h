@@ -16,22 +16,21 @@ class ReducedSpace {
   ReducedSpace(const Gap& gap, const std::vector<Signature>& signatures);
 
   Eigen::VectorXd reduced(const Eigen::VectorXd& v) const { return directions_.transpose() * whiten(v); }
-  Eigen::MatrixXd reduced_covariance(const Eigen::MatrixXd& covariance) const;
   Signature reduced(const Signature& signature) const;
   const Eigen::VectorXd& values() const { return values_; }
   Eigen::Index size() const { return values_.size(); }
   /// The square of what is outside the span.
   double outside(const Eigen::VectorXd& v) const;
 
-  /// How well a response fits: logarithm of the density, Mahalanobis distance squared, and half the logarithm of
-  /// the covariance's determinant.
+  /// How well a response fits: logarithm of the density, Mahalanobis distance squared, half the logarithm of the
+  /// covariance's determinant, and by how much its errors widen what is outside the span.
   struct Fit {
-    double log_likelihood = 0.0, misfit = 0.0, log_volume = 0.0;
+    double log_likelihood = 0.0, misfit = 0.0, log_volume = 0.0, widening = 1.0;
   };
 
-  /// Of what a response leaves, where the response has this covariance besides the noise. The density is the
-  /// multivariate t of Sellentin & Heavens (2016, MNRAS 456, L132).
-  Fit fit(const Eigen::VectorXd& response, const Eigen::MatrixXd& covariance) const;
+  /// Of what a response leaves, where the response has this covariance besides the noise, and this square outside
+  /// the span. The density is the multivariate t of Sellentin & Heavens (2016, MNRAS 456, L132).
+  Fit fit(const Eigen::VectorXd& response, const Eigen::MatrixXd& covariance, double outside) const;
 
   /// The log-likelihood where the noise's standard deviation is so many times as large, outside the span, too.
   double widened(const Fit& fit, double factor) const;
@@ -50,9 +49,5 @@ class ReducedSpace {
   double outside_ = 0.0, dimensions_ = 0.0;  // of the gap; outside the span
   double outside_scale_ = 1.0, outside_freedom_ = 1.0;
 };
-
-/// Squares of what gaps with the noise of this one have outside all that responses span, in its units.
-std::vector<double> outside_of(const Gap& gap, const std::vector<Signature>& signatures,
-                               const std::vector<Eigen::VectorXd>& values);
 
 }  // namespace pendular::diagnosis

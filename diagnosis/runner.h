@@ -15,9 +15,10 @@ namespace pendular::diagnosis {
 using MakeRuns = std::function<std::vector<sweep::RunOutcome>(const std::string& name,
                                                               std::span<const sweep::RunRequest> requests)>;
 
-/// Reads a run that is done and books every run in the ledger; nothing where it failed.
+/// Reads a run that is done and books every run in the ledger, as what it was made `for`; nothing where it failed.
 std::optional<SimulatedTest> read_outcome(const sweep::RunOutcome& outcome, std::size_t condition,
-                                          const std::string& purpose, std::vector<LedgerRow>& ledger);
+                                          const std::string& made_for, const Changes& changes,
+                                          std::vector<LedgerRow>& ledger);
 
 /// "baseline", "missing_bridges 0.1", "bridges.youngs_modulus_pa -2 sd".
 std::string purpose_of(const Changes& changes);

@@ -108,7 +108,7 @@ class Bench {
     for (std::size_t m = 0; m < std::size(kFresh); ++m) {
       SimulatedTests tests(shop_.plan.conditions.size());
       for (const std::size_t c : needed)
-        tests[c] = read_outcome(*outcome++, c, name + ": " + purpose_of(changes), diagnosis_.ledger);
+        tests[c] = read_outcome(*outcome++, c, name + ": ", changes, diagnosis_.ledger);
       const Eigen::VectorXd values =
           simulated_features(shop_.experiment, shop_.plan.conditions, shop_.problem.landmarks.observed, tests, changes);
       for (Eigen::Index f = 0; f < values.size(); ++f)

@@ -15,8 +15,10 @@ struct Signature {
   double scale = 0.0;                  ///< a usual |θ|
   double least = 0.0;                  ///< |θ| below which the effect counts as absent
   double error = 0.1;                  ///< of each feature's response, as a share of it
+  double outside = 0.03;               ///< of what it does outside the span of all responses, over what it does
   Eigen::MatrixXd draws = {};          ///< covariance of what draws of it differ by, at drawn_at; empty: none
   double drawn_at = 1.0;               ///< θ of that covariance, which grows with θ²
+  double drawn_outside = 0.0;          ///< its trace outside the span of all responses, of a reduced signature
 
   Eigen::VectorXd at(double theta) const {
     Eigen::VectorXd sum = theta * powers.back();  // Horner's scheme
@@ -38,7 +40,7 @@ struct Gap {
   Eigen::MatrixXd
       covariance;        ///< of what is neither effect nor believed input: ensemble, measurement, specimen
   double freedom = 0.0;  ///< degrees of freedom of that covariance where it was estimated; 0: known
-  /// What known runs leave outside the span of all responses, squared, in units of the noise: how it scatters.
+  /// What runs without an effect leave outside the span of all responses, squared, in units of the noise.
   std::vector<double> outside = {};
   Eigen::MatrixXd believed;  ///< what one standard deviation of each believed input does: a column each
 };

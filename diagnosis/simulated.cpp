@@ -34,6 +34,7 @@ Frame read_frame(const fs::path& path) {
   const PolyTable table = read_polydata(path);
   Frame frame;
   frame.strain = table.number_fields.at("strain");
+  frame.stress = table.number_fields.at("stress_pa");
   frame.ids = integers(table, true, "bead_id", path);
   frame.displacement = in_m(vectors(table, true, "displacement_um", path));
   frame.rest = in_m(table.points);
@@ -73,6 +74,15 @@ SimulatedTest read_simulated_test(const fs::path& folder) {
   test.frames = read_frames(folder / "frames");
   test.coordination = z.is_number() ? z.get<double>() : std::nan("");
   return test;
+}
+
+void read_frames(const effects::Effect& effect, double theta, SimulatedTest& test) {
+  for (auto& frame : test.frames) {
+    std::vector<CurveRow> row(1);
+    row.front().strain = frame.strain, row.front().stress = frame.stress;
+    effect.rows(row, test.gauge, theta);
+    frame.strain = row.front().strain;
+  }
 }
 
 const Frame& frame_near(const SimulatedTest& test, double strain) {

@@ -14,7 +14,8 @@ namespace pendular::diagnosis {
 
 /// A specimen as a simulated scan shows it. SI.
 struct Frame {
-  double strain = 0.0;  ///< platen strain, true
+  double strain = 0.0;  ///< platen strain: as it is in a run's frames, as it is read once an instrument read it
+  double stress = 0.0;  ///< Pa
   std::vector<std::int64_t> ids;
   std::vector<Vec3> rest, displacement;
   std::set<std::pair<std::int64_t, std::int64_t>> standing, broken;  ///< pairs of ids, the smaller first
@@ -34,6 +35,9 @@ inline constexpr double kRestStrain = 1e-3;
 
 /// Reads a run folder. BadInput where it is damaged.
 SimulatedTest read_simulated_test(const fs::path& folder);
+
+/// Frames by the strain that instruments with an effect show: a run's frames have the true one.
+void read_frames(const effects::Effect& effect, double theta, SimulatedTest& test);
 
 /// The frame whose platen strain, as the instruments read it, is nearest to this one. BadInput where the run
 /// kept none.

@@ -84,6 +84,11 @@ struct Effect {
   std::size_t memory = 0;
   /// What the instruments make of the rows.
   void (*rows)(std::vector<CurveRow>& rows, const Gauge& gauge, double theta) = nullptr;
+
+  /// Whether it changes nothing but what instruments read.
+  bool reads_only() const {
+    return rows && !sample && !beads && !truth && !packing && !body && !simulation && !evolution;
+  }
 };
 
 }  // namespace pendular::effects

@@ -18,13 +18,14 @@ const std::vector<double> kStrains = {0.001, 0.002, 0.003, 0.0045, 0.006, 0.008,
                                       0.11, 0.12, 0.13, 0.14, 0.15, 0.17, 0.20, 0.25, 0.30};
 constexpr double kHalf = 8e-4;            // strain within which rows are read together
 constexpr double kLeastStress = 3e-3;     // over the largest: below it a logarithm is of noise
-constexpr double kDepths[] = {0.2, 0.4, 0.6, 0.8};  // of an unloading, over its strain
+const std::vector<double> kShares = {0.8, 0.6, 0.4, 0.3};  // of the stress at a turn, in its loop
+constexpr double kHalfShare = 0.03;        // of it, within which rows are read together
 constexpr double kSameTurn = 1.02;         // over the last strain, up to which loops are looked for
 constexpr double kLasting = 0.7;          // correlation of a load cell's noise from row to row
 // Errors of the simulation (docs/diagnose.md): of stresses, correlated along the curve; of the strain at which
 // platens meet the specimen; of loops.
-constexpr double kStressError = 0.015, kStressReach = 4.0, kSeatError = 1.5e-4, kLoopError = 0.008,
-                 kLoopReach = 2.0;
+constexpr double kStressError = 0.015, kStressReach = 4.0, kSeatError = 1.5e-4, kUnloadingError = 0.02,
+                 kHysteresisError = 0.01, kLoopReach = 8.0;
 
 void check_order(const Observation& observation) {
   const auto& strain = observation.column("strain");
@@ -68,29 +69,36 @@ std::vector<Feature> landmarks(const Observation& observation, const Columns& co
   return list.take();
 }
 
-/// Stress over that at the turn, at depths of an unloading that the observation has, on the way down and up.
+/// Strain at which the stress of some rows first passes shares of that at the turn, from the turn down or from
+/// the bottom up.
+std::vector<double> strains_at_shares(const Curve& curve, const Loop& loop, bool down) {
+  const std::size_t from = down ? loop.top : loop.bottom,
+                    to = down ? loop.bottom : std::min(loop.end, curve.strain.size() - 1);
+  std::vector<double> x, y, at;
+  for (std::size_t k = from; k <= to; ++k) {
+    const double share = curve.stress[k] / curve.stress[loop.top];
+    x.push_back(down ? 1.0 - share : share);
+    y.push_back(curve.strain[k]);
+  }
+  for (double share : kShares) at.push_back(down ? 1.0 - share : share);
+  return read_at(x, y, at, kHalfShare);
+}
+
+/// Secant moduli of unloadings, and how far reloading is from unloading, at shares of the stress at the turn:
+/// these do not depend much on where the turn is, which differs where strain was misread.
 void add_loops(FeatureList& list, const Observation& observation, const Columns& columns) {
   const double last = last_strain(observation);
-  const Curve seen{observation.column("strain"), observation.column("stress_pa")},
-      curve{columns.at("strain"), columns.at("stress_pa")};
-  const auto of_seen = loops_of(seen, last), loops = loops_of(curve, kSameTurn * last);
-  for (std::size_t n = 0; n < std::min(of_seen.size(), loops.size()); ++n) {
-    const double range = seen.strain[of_seen[n].top] - seen.strain[of_seen[n].bottom];
-    const Loop& loop = loops[n];
-    const double turn = curve.strain[loop.top], stress = curve.stress[loop.top];
-    for (const auto& [way, from, to] : {std::tuple("unloading", loop.top, loop.bottom),
-                                        {"reloading", loop.bottom, std::min(loop.end, curve.strain.size() - 1)}}) {
-      std::vector<double> x, y;
-      for (std::size_t k = from; k <= to; ++k) x.push_back(std::fabs(curve.strain[k] - curve.strain[from]));
-      for (std::size_t k = from; k <= to; ++k) y.push_back(curve.stress[k] / stress);
-      const bool down = from == loop.top;
-      std::vector<double> at;
-      for (double depth : kDepths)
-        at.push_back(down ? depth * range : (turn - curve.strain[loop.bottom]) - depth * range);
-      const auto found = read_at(x, y, at, kHalf / 4.0);
-      for (std::size_t k = 0; k < at.size(); ++k)
-        list.difference(fmt::format("{}_{}_at_{:.0f}_percent", way, n + 1, 100.0 * kDepths[k]), found[k],
-                        turn - kDepths[k] * range, turn);
+  const Curve curve{columns.at("strain"), columns.at("stress_pa")};
+  const auto loops = loops_of(curve, kSameTurn * last);
+  const auto seen = loops_of({observation.column("strain"), observation.column("stress_pa")}, last);
+  for (std::size_t n = 0; n < std::min(seen.size(), loops.size()); ++n) {
+    const double turn = curve.strain[loops[n].top], stress = curve.stress[loops[n].top],
+                 depth = turn - curve.strain[loops[n].bottom];
+    const auto down = strains_at_shares(curve, loops[n], true), up = strains_at_shares(curve, loops[n], false);
+    for (std::size_t k = 0; k < down.size(); ++k) {
+      const std::string at = fmt::format("{}_at_{:.0f}_percent", n + 1, 100.0 * kShares[k]);
+      list.ratio("unloading_modulus_" + at, stress * (1.0 - kShares[k]) / (turn - down[k]), down[k], turn);
+      list.difference("hysteresis_" + at, (up[k] - down[k]) / depth, down[k], turn);
     }
   }
 }
@@ -133,14 +141,17 @@ Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
   const auto count = static_cast<Eigen::Index>(features.size());
   if (count == 0 || !features.front().name.starts_with("stress_at"))
     return errors_by_name(features, landmark_errors());
-  Eigen::VectorXd stress = Eigen::VectorXd::Zero(count), loop = stress, seat = stress;
+  Eigen::VectorXd stress = Eigen::VectorXd::Zero(count), unloading = stress, hysteresis = stress, seat = stress;
   for (Eigen::Index k = 0; k < count; ++k) {
     const Feature& feature = features[static_cast<std::size_t>(k)];
-    const bool loading = feature.name.starts_with("stress_at");
-    (loading ? stress : loop)[k] = loading ? kStressError : kLoopError;
-    if (loading) seat[k] = kSeatError / feature.strain_to;
+    if (feature.name.starts_with("unloading")) unloading[k] = kUnloadingError;
+    if (feature.name.starts_with("hysteresis")) hysteresis[k] = kHysteresisError;
+    if (!feature.name.starts_with("stress_at")) continue;
+    stress[k] = kStressError;
+    seat[k] = kSeatError / feature.strain_to;
   }
-  Eigen::MatrixXd covariance = errors_along(stress, kStressReach) + errors_along(loop, kLoopReach);
+  Eigen::MatrixXd covariance = errors_along(stress, kStressReach) + errors_along(unloading, kLoopReach) +
+                               errors_along(hysteresis, kLoopReach);
   covariance += Eigen::MatrixXd(seat.cwiseAbs2().asDiagonal());
   return covariance;
 }
@@ -148,7 +159,7 @@ Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
 }  // namespace
 
 /// Engineering stress against strain from platen displacement, in order of time; strain may go down. Readings:
-/// the stress at fixed strains of first loading, and of each unloading and reloading over that at its turn.
+/// the stress at fixed strains of first loading, secant moduli of unloadings and the hysteresis of loops.
 const Kind& kinds::compression() {
   static const Kind kind{.name = "compression",
                          .required = {"strain", "stress_pa"},
