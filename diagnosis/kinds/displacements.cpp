@@ -19,6 +19,7 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr double kUm = 1e6;
+constexpr std::size_t kLeastBeads = 20;
 // Of the strain of a scan: frames that tell the displacements also where the strain is misread.
 constexpr double kShares[] = {0.4, 0.7, 1.0};
 constexpr double kElsewhere = 0.25;  // rms of motion over bead diameters, beyond which beads are others
@@ -74,7 +75,7 @@ Columns with_motion(Columns rows, const std::vector<Vec3>& motion) {
 }
 
 /// The ids and places are those of the specimen's table.
-void read(Observation& observation, const CsvTable& table) {
+void check_places(const Observation& observation, const CsvTable& table) {
   if (observation.beads.empty()) return;
   std::map<std::int64_t, Vec3> known;
   double diameter = 0.0;
@@ -98,6 +99,26 @@ void read(Observation& observation, const CsvTable& table) {
       stated < 1e-5 * extent   ? "in m"
       : stated < 1e-2 * extent ? "in mm"
                                : "another specimen, or turned or mirrored");
+}
+
+/// Beads that came loose roll on their own: where they end says nothing of the specimen.
+void leave_out_loose(Observation& observation, const CsvTable& table) {
+  if (!table.has("state")) return;
+  const auto& state = table.texts("state");
+  for (auto& [name, column] : observation.columns) {
+    std::vector<double> kept;
+    for (std::size_t k = 0; k < column.size(); ++k)
+      if (state[k] != "loose") kept.push_back(column[k]);
+    column = std::move(kept);
+  }
+}
+
+void read(Observation& observation, const CsvTable& table) {
+  check_places(observation, table);
+  leave_out_loose(observation, table);
+  if (observation.rows() < kLeastBeads)
+    bad_input("{}: found {} beads that are not loose, expected at least {}", observation.file.string(),
+              observation.rows(), kLeastBeads);
 }
 
 double mean_square(const std::vector<Vec3>& all) {
@@ -258,7 +279,7 @@ const Kind& kinds::displacements() {
   static const Kind kind{.name = "displacements",
                          .required = {"strain", "bead_id", "x_um", "y_um", "z_um", "ux_um", "uy_um", "uz_um"},
                          .optional = {"sigma_um"},
-                         .least_rows = 20,
+                         .least_rows = kLeastBeads,
                          .scale = Scale::network,
                          .read = read,
                          .check = check,

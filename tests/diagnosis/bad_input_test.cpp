@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "base/error.h"
@@ -235,6 +236,25 @@ TEST(GoodObservation, BreaksOfEachRowAreTakenWhereThatIsSaid) {
 TEST(GoodObservation, BridgesOfTheRightUnitAreTaken) {
   ScratchFolder folder;
   EXPECT_TRUE(read(folder, "bridge_stiffness", bridges_in(1.0)).warnings.empty());
+}
+
+TEST(GoodObservation, BeadsThatCameLooseOrWereLostAreLeftOut) {
+  ScratchFolder folder;
+  auto rows = followed_rows(followed_specimen(), 0.02);
+  rows[7].motion = {0, 0, -3e-4};
+  rows.erase(rows.begin() + 20, rows.begin() + 30);
+  std::string table = followed_text(rows, 0.02);
+  std::size_t at = 0;
+  for (int line = 0; (at = table.find('\n', at)) != std::string::npos; ++line, ++at) {
+    const std::string state = line == 0 ? ",state" : line == 8 ? ",loose" : ",followed";
+    table.insert(at, state);
+    at += state.size();
+  }
+  const auto experiment = read(folder, "displacements", table, kBeads);
+  EXPECT_TRUE(experiment.warnings.empty());
+  const auto& ids = experiment.observations[0].column("bead_id");
+  EXPECT_EQ(ids.size(), 256u - 11u);
+  EXPECT_EQ(std::count(ids.begin(), ids.end(), 8.0), 0);
 }
 
 struct Odd {
