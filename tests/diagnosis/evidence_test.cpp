@@ -176,6 +176,23 @@ TEST(Evidence, FindsAPairAndBothMagnitudes) {
   EXPECT_NEAR(second / found, 0.9, 0.2);
 }
 
+TEST(Evidence, APairThatDoesNotAddIsKnownFromRunsOfBoth) {
+  // Together two effects do something in a direction of its own besides.
+  const auto all = effects(4, 8.0);
+  const Eigen::VectorXd beyond = 6.0 * draw(55).normalized();
+  const Gap gap = gap_of(all[0].at(1.0) + all[1].at(1.0) + beyond);
+  const std::vector<Together> run = {{"a", "b", 1.0, 1.0, beyond}};
+  const auto of_sum = weigh(gap, all), of_runs = weigh(gap, all, run);
+  EXPECT_GT(probability(of_runs, "a+b"), 0.5);
+  EXPECT_GT(probability(of_runs, "a+b"), probability(of_sum, "a+b"));
+  // Only pairs that were run are reported where that is asked for.
+  for (const auto& h : weigh(gap, all, run, {}, Pairs::run)) {
+    if (h.id.find('+') != std::string::npos) {
+      EXPECT_EQ(h.id, "a+b");
+    }
+  }
+}
+
 TEST(Evidence, WhatDrawsOfAnEffectDifferByIsNotHeldAgainstIt) {
   // One draw of the effect does something in a direction of its own besides what all draws do.
   auto all = effects(3, 8.0);
