@@ -74,12 +74,16 @@ TEST(Emulator, WhatDrawsDifferByIsTheEffectsOwnAndNoScatter) {
   std::vector<DesignRun> runs;
   for (int member = 0; member < 6; ++member) runs.push_back({member, "", 0.0, Eigen::Vector2d(0.0, 0.0)});
   for (std::uint64_t n = 0; n < 300; ++n) {
-    const double theta = 0.1 * static_cast<double>(1 + n % 3), a = random_normal(21, 2 * n), b = random_normal(21, 2 * n + 1);
-    runs.push_back({static_cast<int>(n % 6), "e", theta,
-                    theta * Eigen::Vector2d(2.0, -1.0) + theta / 0.3 * Eigen::Vector2d(0.5 * a, 0.8 * a + 0.6 * b), true});
+    const double theta = 0.1 * static_cast<double>(1 + n % 3), a = random_normal(21, 2 * n),
+                 b = random_normal(21, 2 * n + 1);
+    runs.push_back(
+        {static_cast<int>(n % 6), "e", theta,
+         theta * Eigen::Vector2d(2.0, -1.0) + theta / 0.3 * Eigen::Vector2d(0.5 * a, 0.8 * a + 0.6 * b),
+         true});
   }
   for (std::uint64_t n = 0; n < 12; ++n)
-    runs.push_back({static_cast<int>(n % 6), "steady", 0.1 * static_cast<double>(1 + n % 3), Eigen::Vector2d(0.1, 0.1)});
+    runs.push_back(
+        {static_cast<int>(n % 6), "steady", 0.1 * static_cast<double>(1 + n % 3), Eigen::Vector2d(0.1, 0.1)});
   const auto responses = fit_responses(runs, 2);
   const Signature& found = *responses.find("e");
   EXPECT_DOUBLE_EQ(found.drawn_at, 0.3);

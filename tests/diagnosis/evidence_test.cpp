@@ -36,7 +36,8 @@ std::vector<Signature> effects(int count, double strength) {
 }
 
 Gap gap_of(const Eigen::VectorXd& values) {
-  return {values, Eigen::MatrixXd::Identity(kFeatures, kFeatures), 0.0, {}, Eigen::MatrixXd::Zero(kFeatures, 0)};
+  return {
+      values, Eigen::MatrixXd::Identity(kFeatures, kFeatures), 0.0, {}, Eigen::MatrixXd::Zero(kFeatures, 0)};
 }
 
 double probability(const std::vector<Hypothesis>& all, const std::string& id) {
@@ -46,8 +47,8 @@ double probability(const std::vector<Hypothesis>& all, const std::string& id) {
 
 TEST(Evidence, OfOneFeatureIsItsIntegralOverMagnitudes) {
   // One feature of value 3, one effect of slope 2, all θ from −8 to 8 alike. The response is known to a tenth
-  // of itself, and three tenths of that square lie in no direction: ∫ N(3; 2θ, 1 + 1.3 (0.2 θ)²) dθ / 16, here
-  // by the trapezoidal rule.
+  // of itself, and three tenths of that square lie in no direction: ∫ N(3; 2θ, 1 + 1.3 (0.2 θ)²) dθ / 16,
+  // here by the trapezoidal rule.
   double evidence = 0.0, first = 0.0, up_to = 0.0;
   const double step = 1e-4;
   const auto density = [](double theta) {
@@ -63,7 +64,10 @@ TEST(Evidence, OfOneFeatureIsItsIntegralOverMagnitudes) {
   s.id = "a";
   s.powers = {Eigen::VectorXd::Constant(1, 2.0)};
   s.lowest = -8.0, s.highest = 8.0, s.scale = 1.0;
-  const Gap gap = {Eigen::VectorXd::Constant(1, 3.0), Eigen::MatrixXd::Constant(1, 1, 1.0), 0.0, {},
+  const Gap gap = {Eigen::VectorXd::Constant(1, 3.0),
+                   Eigen::MatrixXd::Constant(1, 1, 1.0),
+                   0.0,
+                   {},
                    Eigen::MatrixXd::Zero(1, 0)};
   for (const auto& h : weigh(gap, {s})) {
     if (h.id == "none") {
@@ -152,7 +156,10 @@ TEST(Evidence, AnEstimatedCovarianceGivesStudentsDensity) {
   // One feature three noises off, its variance known with four degrees of freedom.
   Signature s = effects(1, 1.0).front();
   s.powers = {Eigen::VectorXd::Constant(1, 1.0)};
-  const Gap gap = {Eigen::VectorXd::Constant(1, 3.0), Eigen::MatrixXd::Constant(1, 1, 1.0), 4.0, {},
+  const Gap gap = {Eigen::VectorXd::Constant(1, 3.0),
+                   Eigen::MatrixXd::Constant(1, 1, 1.0),
+                   4.0,
+                   {},
                    Eigen::MatrixXd::Zero(1, 0)};
   const double student = 0.375 * std::pow(1.0 + 9.0 / 4.0, -2.5);  // 3/8 (1 + t²/4)^(-5/2)
   for (const auto& h : weigh(gap, {s}))
@@ -211,7 +218,8 @@ TEST(Evidence, WhatKnownRunsLeaveOutsideIsNoSurprise) {
   Gap gap = gap_of(4.0 * draw(8100));
   for (const auto& s : all)  // nothing of the effects in it
     for (int round = 0; round < 50; ++round)
-      for (const auto& power : s.powers) gap.values -= power.normalized() * power.normalized().dot(gap.values);
+      for (const auto& power : s.powers)
+        gap.values -= power.normalized() * power.normalized().dot(gap.values);
   const double surprised = probability(weigh(gap, all), "unknown");
   gap.outside = outside_of(gap, all, runs);
   ASSERT_EQ(gap.outside.size(), runs.size());
@@ -222,7 +230,8 @@ TEST(Evidence, WhatKnownRunsLeaveOutsideIsNoSurprise) {
 TEST(Evidence, OutsideIsWhatResponsesDoNotSpan) {
   // Two responses along the first two axes; the rest of a gap of the noise's size is χ² of what remains.
   std::vector<Signature> all = effects(2, 8.0);
-  for (int k = 0; k < 2; ++k) all[static_cast<std::size_t>(k)].powers = {8.0 * Eigen::VectorXd::Unit(kFeatures, k)};
+  for (int k = 0; k < 2; ++k)
+    all[static_cast<std::size_t>(k)].powers = {8.0 * Eigen::VectorXd::Unit(kFeatures, k)};
   const Gap gap = gap_of(Eigen::VectorXd::Zero(kFeatures));
   EXPECT_EQ(ReducedSpace(gap, all).size(), 2);
   const Eigen::VectorXd value = draw(3);

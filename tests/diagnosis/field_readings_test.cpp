@@ -1,7 +1,7 @@
 #include "diagnosis/field_readings.h"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <functional>
@@ -27,9 +27,10 @@ class FieldReadingsTest : public ::testing::Test {
     write_beads(folder / "beads.csv", followed_specimen(), {});
     write_text(folder / "sample.toml",
                "[beads]\ndiameter_um = 200\n[specimen]\ndiameter_um = 1300\nheight_um = 1200\n");
-    write_text(folder / "e.toml",
-               "[experiment]\nsample = \"sample.toml\"\n[[observation]]\nkind = \"displacements\"\nname = \"scan\"\n"
-               "file = \"scan.csv\"\nbeads = \"beads.csv\"\n");
+    write_text(
+        folder / "e.toml",
+        "[experiment]\nsample = \"sample.toml\"\n[[observation]]\nkind = \"displacements\"\nname = \"scan\"\n"
+        "file = \"scan.csv\"\nbeads = \"beads.csv\"\n");
     for (int member = 1; member <= 6; ++member) add(member, 0.0);
     for (int level = 1; level <= 3; ++level) add(level, 0.5 * level);
   }
@@ -74,11 +75,11 @@ class FieldReadingsTest : public ::testing::Test {
       const auto draw = static_cast<std::uint64_t>(bead.id);
       test.frames[0].ids.push_back(bead.id);
       test.frames[0].rest.push_back(bead.centre);
-      test.frames[0].displacement.push_back(test::compressed(bead.centre, kStrain) +
-                                            Vec3(bending(tilt, bead.centre), 0, 0) +
-                                            1e-7 * Vec3(random_normal(static_cast<std::uint64_t>(member), 3 * draw),
-                                                        random_normal(static_cast<std::uint64_t>(member), 3 * draw + 1),
-                                                        random_normal(static_cast<std::uint64_t>(member), 3 * draw + 2)));
+      test.frames[0].displacement.push_back(
+          test::compressed(bead.centre, kStrain) + Vec3(bending(tilt, bead.centre), 0, 0) +
+          1e-7 * Vec3(random_normal(static_cast<std::uint64_t>(member), 3 * draw),
+                      random_normal(static_cast<std::uint64_t>(member), 3 * draw + 1),
+                      random_normal(static_cast<std::uint64_t>(member), 3 * draw + 2)));
     }
     tests.push_back({test});
   }
@@ -90,7 +91,8 @@ TEST_F(FieldReadingsTest, ATurnedShiftedAndScaledScanAreTheSame) {
   const auto rows = bent(0.8);
   auto turned = rows;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.2, Vec3(0.03, 0.02, 1.0).normalized()).toRotationMatrix();
-  for (auto& row : turned) row.motion = 1.006 * (turn * (row.at + row.motion)) + Vec3(2e-5, -4e-5, 3e-5) - row.at;
+  for (auto& row : turned)
+    row.motion = 1.006 * (turn * (row.at + row.motion)) + Vec3(2e-5, -4e-5, 3e-5) - row.at;
   const FieldReadings one = read(rows), other = read(turned);
   ASSERT_EQ(one.observed.size(), other.observed.size());
   for (std::size_t k = 0; k < one.observed.size(); ++k)
@@ -103,7 +105,8 @@ TEST_F(FieldReadingsTest, SimulatedFieldsHaveNoiseOfTheStatedSize) {
   auto rows = bent(0.0);
   for (auto& row : rows)
     for (int axis = 0; axis < 3; ++axis)
-      row.motion[axis] += 5e-7 * random_normal(71, 3 * static_cast<std::uint64_t>(row.id) + static_cast<unsigned>(axis));
+      row.motion[axis] +=
+          5e-7 * random_normal(71, 3 * static_cast<std::uint64_t>(row.id) + static_cast<unsigned>(axis));
   const FieldReadings stated = read(rows, 0.5), understated = read(rows, 0.1);
   const auto off = [&](const FieldReadings& of) {
     double mean = 0.0;
@@ -132,7 +135,8 @@ TEST_F(FieldReadingsTest, BeadsThatTheScanLostAreNoLoss) {
   std::erase_if(some, [](const Followed& row) { return row.id % 12 == 0; });
   const FieldReadings whole = read(rows), part = read(some);
   ASSERT_EQ(whole.observed.size(), part.observed.size());
-  EXPECT_NEAR(std::fabs(named(part, "mode_1")), std::fabs(named(whole, "mode_1")), 0.1 * std::fabs(named(whole, "mode_1")));
+  EXPECT_NEAR(std::fabs(named(part, "mode_1")), std::fabs(named(whole, "mode_1")),
+              0.1 * std::fabs(named(whole, "mode_1")));
   EXPECT_NEAR(named(part, "field_size"), named(whole, "field_size"), 0.1);
 }
 

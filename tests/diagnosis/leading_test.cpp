@@ -54,7 +54,8 @@ TEST(Leading, TheBudgetIsKept) {
 }
 
 TEST(Leading, NothingLeadsWhereThereIsNoGap) {
-  for (const auto& point : leading_points(pair_of(0.0, 0.0), {}, plan(96))) EXPECT_EQ(point.changes.size(), 1u);
+  for (const auto& point : leading_points(pair_of(0.0, 0.0), {}, plan(96)))
+    EXPECT_EQ(point.changes.size(), 1u);
 }
 
 }  // namespace
