@@ -16,7 +16,7 @@ namespace {
 constexpr double kUm = 1e6;
 constexpr double kSteep = 0.7, kFlat = 0.35;  // cosine of a pair's direction to the axis
 constexpr std::size_t kLeastPairs = 20, kLeastNecks = 10;
-constexpr double kFarPair = 0.3;  // gap over bead diameter, of the median pair
+constexpr double kFarPair = 0.3;                           // gap over bead diameter, of the median pair
 constexpr double kShareError = 0.005, kNeckError = 0.005;  // of the simulation
 
 /// The network as columns: pairs, where they are, and whether a bridge joins them (NaN: undetermined).
@@ -61,10 +61,13 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
   if (std::none_of(joined.begin(), joined.end(), [](double one) { return one == 0.0; }))
     warnings.push_back(observation.name +
                        ": every pair is said to have a bridge; pairs without one tell as much and should be listed");
-  const double diameter = kUm * believed.beads.diameter, separation = median(observation.column("separation_um"));
+  const double diameter = kUm * believed.beads.diameter,
+               separation = median(observation.column("separation_um"));
   if (std::fabs(separation) > kFarPair * diameter)
-    bad_input("{}: found pairs of beads with a gap of {:.3g} um (median) in {}, expected neighbours (another specimen?)",
-              observation.file.string(), separation, observation.beads.string());
+    bad_input(
+        "{}: found pairs of beads with a gap of {:.3g} um (median) in {}, expected neighbours (another "
+        "specimen?)",
+        observation.file.string(), separation, observation.beads.string());
   check_sigma(observation, "sigma_gap_um", diameter);
   check_sigma(observation, "sigma_bridge_diameter_um", diameter);
   if (observation.has("bridge_diameter_um")) {

@@ -19,11 +19,12 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr double kUm = 1e6;
+constexpr std::size_t kLeastBeads = 20;
 // Of the strain of a scan: frames that tell the displacements also where the strain is misread.
 constexpr double kShares[] = {0.4, 0.7, 1.0};
 constexpr double kElsewhere = 0.25;  // rms of motion over bead diameters, beyond which beads are others
 constexpr double kSamePlace = 0.1;   // likewise of places at rest
-constexpr double kStill = 0.003;     // rms of motion over the platen's way, below which beads do not take part
+constexpr double kStill = 0.003;  // rms of motion over the platen's way, below which beads do not take part
 constexpr double kAlongAxis = 0.75;  // least cosine to z of the direction in which beads approach most
 constexpr double kNeighbours = 0.1;  // gap over bead diameter
 constexpr double kAlike = 0.7;       // of neighbours' difference over that of any two beads, mean squares
@@ -74,7 +75,7 @@ Columns with_motion(Columns rows, const std::vector<Vec3>& motion) {
 }
 
 /// The ids and places are those of the specimen's table.
-void read(Observation& observation, const CsvTable& table) {
+void check_places(const Observation& observation, const CsvTable& table) {
   if (observation.beads.empty()) return;
   std::map<std::int64_t, Vec3> known;
   double diameter = 0.0;
@@ -100,6 +101,26 @@ void read(Observation& observation, const CsvTable& table) {
                                : "another specimen, or turned or mirrored");
 }
 
+/// Beads that came loose roll on their own: where they end says nothing of the specimen.
+void leave_out_loose(Observation& observation, const CsvTable& table) {
+  if (!table.has("state")) return;
+  const auto& state = table.texts("state");
+  for (auto& [name, column] : observation.columns) {
+    std::vector<double> kept;
+    for (std::size_t k = 0; k < column.size(); ++k)
+      if (state[k] != "loose") kept.push_back(column[k]);
+    column = std::move(kept);
+  }
+}
+
+void read(Observation& observation, const CsvTable& table) {
+  check_places(observation, table);
+  leave_out_loose(observation, table);
+  if (observation.rows() < kLeastBeads)
+    bad_input("{}: found {} beads that are not loose, expected at least {}", observation.file.string(),
+              observation.rows(), kLeastBeads);
+}
+
 double mean_square(const std::vector<Vec3>& all) {
   double sum = 0.0;
   for (const Vec3& one : all) sum += one.squaredNorm() / static_cast<double>(all.size());
@@ -112,8 +133,9 @@ double unlikeness(const std::vector<Bead>& beads, const std::vector<Vec3>& motio
   const auto pairs = candidate_bridges(beads, kNeighbours * mean_diameter(beads));
   double sum = 0.0;
   for (const auto& pair : pairs)
-    sum += (motion[static_cast<std::size_t>(pair.i)] - motion[static_cast<std::size_t>(pair.j)]).squaredNorm() /
-           static_cast<double>(pairs.size());
+    sum +=
+        (motion[static_cast<std::size_t>(pair.i)] - motion[static_cast<std::size_t>(pair.j)]).squaredNorm() /
+        static_cast<double>(pairs.size());
   return sum / (2.0 * mean_square(motion));  // its mean is taken off
 }
 
@@ -141,7 +163,8 @@ std::vector<Bead> beads_in(const Observation& observation, const Columns& rows) 
 }
 
 /// That the motion at one strain can be that of these beads between platens that approach along z.
-void check_motion(const Sample& believed, const Observation& observation, const Columns& rows, double strain) {
+void check_motion(const Sample& believed, const Observation& observation, const Columns& rows,
+                  double strain) {
   const std::string file = observation.file.string();
   const auto places = places_in(rows), motion = without_rigid_motion(places, motions_in(rows));
   const double rms = std::sqrt(mean_square(motion)), way = strain * believed.specimen.height,
@@ -153,19 +176,23 @@ void check_motion(const Sample& believed, const Observation& observation, const 
         file, kUm * rms, strain);
   if (rms < kStill * way)
     bad_input(
-        "{}: found displacements of {:.3g} um (rms) beside any rigid motion at strain {:.4g}, expected about {:.3g} um "
+        "{}: found displacements of {:.3g} um (rms) beside any rigid motion at strain {:.4g}, expected about "
+        "{:.3g} um "
         "(are they in {}?)",
         file, kUm * rms, strain, 0.2 * kUm * way, rms < 1e-5 * way ? "m" : "mm");
-  const double sigma = observation.has("sigma_um") ? mean_of(rows.at("sigma_um")) / kUm : kUnstated * diameter;
+  const double sigma =
+      observation.has("sigma_um") ? mean_of(rows.at("sigma_um")) / kUm : kUnstated * diameter;
   if (rms < kSeen * sigma) return;
   if (!observation.beads.empty() && unlikeness(beads_in(observation, rows), motion) > kAlike)
     bad_input(
-        "{}: found neighbours that move as differently as any two beads at strain {:.4g}, expected the motion of the "
+        "{}: found neighbours that move as differently as any two beads at strain {:.4g}, expected the "
+        "motion of the "
         "beads of {} (another specimen, or other ids?)",
         file, strain, observation.beads.string());
   if (const double cosine = direction_of_approach(places, motion); cosine < kAlongAxis)
     bad_input(
-        "{}: found beads that approach most at {:.0f} degrees to z at strain {:.4g}, expected along z, as platens do "
+        "{}: found beads that approach most at {:.0f} degrees to z at strain {:.4g}, expected along z, as "
+        "platens do "
         "(turned, mirrored, or of the other sign?)",
         file, std::acos(cosine) * 180.0 / M_PI, strain);
 }
@@ -180,7 +207,8 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
     const Columns rows = rows_at(observation.columns, strain);
     if (std::set<double>(rows.at("bead_id").begin(), rows.at("bead_id").end()).size() !=
         rows.at("bead_id").size())
-      bad_input("{}: column bead_id: found a bead twice in the scan at strain {:.4g}, expected each once", file, strain);
+      bad_input("{}: column bead_id: found a bead twice in the scan at strain {:.4g}, expected each once",
+                file, strain);
     check_motion(believed, observation, rows, strain);
   }
 }
@@ -220,7 +248,8 @@ std::vector<Feature> landmarks(const Observation& observation, const Columns& co
   FeatureList list(observation, Scale::network);
   const Columns last = rows_at(columns, *scans_in(columns).rbegin());
   const auto motion = without_rigid_motion(places_in(last), motions_in(last));
-  for (const auto& [name, value] : displacement_signature(with_motion(last, motion))) list.difference(name, value);
+  for (const auto& [name, value] : displacement_signature(with_motion(last, motion)))
+    list.difference(name, value);
   return list.take();
 }
 
@@ -258,7 +287,7 @@ const Kind& kinds::displacements() {
   static const Kind kind{.name = "displacements",
                          .required = {"strain", "bead_id", "x_um", "y_um", "z_um", "ux_um", "uy_um", "uz_um"},
                          .optional = {"sigma_um"},
-                         .least_rows = 20,
+                         .least_rows = kLeastBeads,
                          .scale = Scale::network,
                          .read = read,
                          .check = check,

@@ -117,8 +117,10 @@ void draw_rows_again(Columns& columns, unsigned long seed) {
 void check_strain(const Observation& observation, const std::string& column) {
   const double found = largest_of(observation.column(column));
   if (found > kLargestStrain)
-    bad_input("{}: {}: found values up to {:.4g}, expected fractions below 0.6 (is it in per cent, or a displacement in mm or um?)",
-              observation.file.string(), column, found);
+    bad_input(
+        "{}: {}: found values up to {:.4g}, expected fractions below 0.6 (is it in per cent, or a "
+        "displacement in mm or um?)",
+        observation.file.string(), column, found);
   if (found == 0.0)
     bad_input("{}: {}: found only zeros, expected a test that strains", observation.file.string(), column);
 }
@@ -135,8 +137,10 @@ void check_sigma(const Observation& observation, const std::string& column, doub
   if (!observation.has(column)) return;
   const double found = largest_of(observation.column(column));
   if (found > most)
-    bad_input("{}: {}: found {:.3g}, expected standard deviations of no more than {:.3g} (the size of what was measured)",
-              observation.file.string(), column, found, most);
+    bad_input(
+        "{}: {}: found {:.3g}, expected standard deviations of no more than {:.3g} (the size of what was "
+        "measured)",
+        observation.file.string(), column, found, most);
 }
 
 void check_length(const Observation& observation, const std::string& column, double least, double most) {

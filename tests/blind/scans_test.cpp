@@ -25,7 +25,8 @@ struct Scanned {
     split.sample.compression.speed = 2e-4;
     split.sample.bridges.normal_stiffness = 5760.0, split.sample.bridges.tangential_stiffness = 325.0;
     split.sample.beads.diameters = "measured";
-    split.sample.specimen.diameter = packing.specimen.diameter, split.sample.specimen.height = packing.specimen.height;
+    split.sample.specimen.diameter = packing.specimen.diameter,
+    split.sample.specimen.height = packing.specimen.height;
     plan.seed = 17;
   }
   void test(double strain, const ScratchFolder& folder) {
@@ -83,12 +84,14 @@ TEST(Scans, WhereAnInstrumentMisreadsTheStrainTheyAreWhereItReadsTheStatedOne) {
   chain.test(0.01, folder);
   // Nine chains; the machine gives way in series with them.
   const double stiffness = 9.0 / (5.0 / 5760.0 + 2.0 / 57600.0), machine = 1.0 / 10e-6;
-  EXPECT_NEAR(shortening(chain), 0.01 * strain_share_of_bonds() * machine / (machine + stiffness), 0.04 * 0.01);
+  EXPECT_NEAR(shortening(chain), 0.01 * strain_share_of_bonds() * machine / (machine + stiffness),
+              0.04 * 0.01);
 }
 
 /// Column of a table by its name.
 std::vector<double> column(const Table& table, const std::string& name) {
-  const auto at = static_cast<std::size_t>(std::find(table.names.begin(), table.names.end(), name) - table.names.begin());
+  const auto at =
+      static_cast<std::size_t>(std::find(table.names.begin(), table.names.end(), name) - table.names.begin());
   std::vector<double> values;
   for (const auto& row : table.rows) values.push_back(row[at]);
   return values;
@@ -112,11 +115,14 @@ TEST(Scans, FollowedBeadsMovedAsTheyDidButForNoiseAndHowTheSpecimenLies) {
   std::vector<Vec3> rest, seen, was;
   const auto ids = column(table, "bead_id");
   for (std::size_t k = 0; k < ids.size(); ++k) {
-    rest.emplace_back(um * column(table, "x_um")[k], um * column(table, "y_um")[k], um * column(table, "z_um")[k]);
-    seen.emplace_back(um * column(table, "ux_um")[k], um * column(table, "uy_um")[k], um * column(table, "uz_um")[k]);
+    rest.emplace_back(um * column(table, "x_um")[k], um * column(table, "y_um")[k],
+                      um * column(table, "z_um")[k]);
+    seen.emplace_back(um * column(table, "ux_um")[k], um * column(table, "uy_um")[k],
+                      um * column(table, "uz_um")[k]);
     was.push_back(truth.at(static_cast<std::int64_t>(ids[k])));
   }
-  const auto left = diagnosis::without_rigid_motion(rest, seen), expected = diagnosis::without_rigid_motion(rest, was);
+  const auto left = diagnosis::without_rigid_motion(rest, seen),
+             expected = diagnosis::without_rigid_motion(rest, was);
   double square = 0.0, motion = 0.0, lying = 0.0;
   for (std::size_t k = 0; k < left.size(); ++k) {
     square += (left[k] - expected[k]).squaredNorm() / (3.0 * static_cast<double>(left.size()));
@@ -130,7 +136,8 @@ TEST(Scans, FollowedBeadsMovedAsTheyDidButForNoiseAndHowTheSpecimenLies) {
   const double stated = told["displacements"]["stated_over_true_sigma"];
   EXPECT_GE(stated, 0.7);
   EXPECT_LE(stated, 1.3);
-  EXPECT_NEAR(column(table, "sigma_um").front(), stated * std::sqrt(2.0) * specimen.split.sigma_centre / um, 1e-12);
+  EXPECT_NEAR(column(table, "sigma_um").front(), stated * std::sqrt(2.0) * specimen.split.sigma_centre / um,
+              1e-12);
   EXPECT_NEAR(told["displacements"]["scale"].get<double>(), 1.0, 0.005);
 }
 

@@ -48,9 +48,9 @@ Outcome diagnose(const ScratchFolder& folder, const std::string& kind, const std
     beads += fmt::format("{},{},{},{},200\n", k + 1, 205 * (k % 3) - 205, 205 * (k / 3 % 3), 205 * (k / 9));
   write_text(folder / "beads.csv", beads);
   write_text(folder / "table.csv", table);
-  write_text(folder / "e.toml",
-             "[experiment]\nsample = \"s.toml\"\n[[observation]]\nkind = \"" + kind + "\"\nfile = \"table.csv\"\n" +
-                 (kind == "displacements" ? "beads = \"beads.csv\"\n" : ""));
+  write_text(folder / "e.toml", "[experiment]\nsample = \"s.toml\"\n[[observation]]\nkind = \"" + kind +
+                                    "\"\nfile = \"table.csv\"\n" +
+                                    (kind == "displacements" ? "beads = \"beads.csv\"\n" : ""));
   return shell(folder.path(), "$P diagnose e.toml -o out --store store " + how);
 }
 
@@ -67,12 +67,12 @@ TEST_P(Diagnose, TellsAMistakeBeforeAnyRunIsMade) {
 
 INSTANTIATE_TEST_SUITE_P(
     Table, Diagnose,
-    testing::Values(
-        Mistake{"BreaksPerInterval", "broken_bonds", "strain,count\n0.01,5\n0.02,40\n0.03,12\n", "per_interval"},
-        Mistake{"CurveInMegapascals", "compression", curve("strain,stress_pa", 1e-6), "MPa"},
-        Mistake{"BridgesInKilonewtonsPerMetre", "bridge_stiffness",
-                "d_um,D_um,kn_n_per_m,kn_sigma_n_per_m\n74,200,5.76,0.3\n", "kN/m"},
-        Mistake{"FieldMirrored", "displacements", field(true), "mirrored"}),
+    testing::Values(Mistake{"BreaksPerInterval", "broken_bonds", "strain,count\n0.01,5\n0.02,40\n0.03,12\n",
+                            "per_interval"},
+                    Mistake{"CurveInMegapascals", "compression", curve("strain,stress_pa", 1e-6), "MPa"},
+                    Mistake{"BridgesInKilonewtonsPerMetre", "bridge_stiffness",
+                            "d_um,D_um,kn_n_per_m,kn_sigma_n_per_m\n74,200,5.76,0.3\n", "kN/m"},
+                    Mistake{"FieldMirrored", "displacements", field(true), "mirrored"}),
     [](const auto& test) { return test.param.name; });
 
 TEST(DiagnoseWarning, TellsWhatIsOddBeforeAnyRunIsMade) {

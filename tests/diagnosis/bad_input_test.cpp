@@ -1,9 +1,10 @@
-// What an experimenter may hand in by mistake: refused in one line that names the file, what was found and what
-// was expected, or told as a warning, before any run is made.
+// What an experimenter may hand in by mistake: refused in one line that names the file, what was found and
+// what was expected, or told as a warning, before any run is made.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "base/error.h"
@@ -15,13 +16,14 @@
 namespace pendular::diagnosis {
 namespace {
 
+using pendular::test::ScratchFolder;
 using test::Followed;
 using test::followed_rows;
 using test::followed_specimen;
 using test::followed_text;
-using pendular::test::ScratchFolder;
 
-/// An experiment of one observation, `table.csv`; `keys` of it besides kind and file. `beads.csv` is beside it.
+/// An experiment of one observation, `table.csv`; `keys` of it besides kind and file. `beads.csv` is beside
+/// it.
 Experiment read(const ScratchFolder& folder, const std::string& kind, const std::string& table,
                 const std::string& keys = "") {
   write_text(folder / "sample.toml",
@@ -29,9 +31,10 @@ Experiment read(const ScratchFolder& folder, const std::string& kind, const std:
              "[bridges]\nyoungs_modulus_pa = 1.5e6\ndiameter_um = 74\ngap_um = 2\n");
   write_beads(folder / "beads.csv", followed_specimen(), {});
   write_text(folder / "table.csv", table);
-  write_text(folder / "e.toml", fmt::format("[experiment]\nsample = \"sample.toml\"\n[[observation]]\nkind = \"{}\"\n"
-                                            "name = \"one\"\nfile = \"table.csv\"\n{}\n",
-                                            kind, keys));
+  write_text(folder / "e.toml",
+             fmt::format("[experiment]\nsample = \"sample.toml\"\n[[observation]]\nkind = \"{}\"\n"
+                         "name = \"one\"\nfile = \"table.csv\"\n{}\n",
+                         kind, keys));
   return read_experiment(folder / "e.toml");
 }
 
@@ -66,7 +69,8 @@ std::string rows(const std::string& header, const std::function<std::string(int)
 std::string curve(double stress, double sigma = 0.0, bool reversed = false) {
   return rows(sigma > 0.0 ? "strain,stress_pa,stress_sigma_pa" : "strain,stress_pa", [&](int row) {
     const int k = reversed ? 10 - row : row;
-    return fmt::format("{},{}", 0.008 * k, 1.5e5 * k * stress) + (sigma > 0.0 ? fmt::format(",{}", sigma) : "");
+    return fmt::format("{},{}", 0.008 * k, 1.5e5 * k * stress) +
+           (sigma > 0.0 ? fmt::format(",{}", sigma) : "");
   });
 }
 
@@ -111,7 +115,8 @@ std::string mixed_up() {
 
 std::string network(int first_id, int step) {
   std::string text = "bead_i,bead_j,state\n";
-  for (int k = 0; k < 60; ++k) text += fmt::format("{},{},{}\n", first_id + k, first_id + k + step, k % 3 ? "bridge" : "none");
+  for (int k = 0; k < 60; ++k)
+    text += fmt::format("{},{},{}\n", first_id + k, first_id + k + step, k % 3 ? "bridge" : "none");
   return text;
 }
 
@@ -120,98 +125,207 @@ const std::string kBeads = "beads = \"beads.csv\"";
 INSTANTIATE_TEST_SUITE_P(
     Table, BadObservation,
     testing::Values(
-        Bad{"BreaksPerInterval", "broken_bonds", "strain,count\n0.01,5\n0.02,40\n0.03,12\n", "",
+        Bad{"BreaksPerInterval",
+            "broken_bonds",
+            "strain,count\n0.01,5\n0.02,40\n0.03,12\n",
+            "",
             {"12", "after 40", "per_interval"}},
-        Bad{"BreaksInFallingStrain", "broken_bonds", "strain,count\n0.03,40\n0.02,12\n0.01,5\n", "",
+        Bad{"BreaksInFallingStrain",
+            "broken_bonds",
+            "strain,count\n0.03,40\n0.02,12\n0.01,5\n",
+            "",
             {"0.02 after 0.03", "order"}},
         Bad{"BreaksBelowZero", "broken_bonds", "strain,count\n0.01,-5\n0.02,40\n", "", {"-5"}},
         Bad{"CurveInFallingStrain", "compression", curve(1.0, 0.0, true), "", {"strain", "reversed"}},
         Bad{"CurveInMegapascals", "compression", curve(1e-6), "", {"stress_pa", "MPa"}},
         Bad{"CurveInKilopascals", "compression", curve(1e-3), "", {"stress_pa", "kPa"}},
         Bad{"CurveWithAbsurdSigma", "compression", curve(1.0, 1e12), "", {"stress_sigma_pa", "1e+12"}},
-        Bad{"TravelInMicrometres", "compression",
-            rows("strain,stress_pa", [](int k) { return fmt::format("{},{}", 10.0 * k, 1e5 * k); }), "",
+        Bad{"TravelInMicrometres",
+            "compression",
+            rows("strain,stress_pa", [](int k) { return fmt::format("{},{}", 10.0 * k, 1e5 * k); }),
+            "",
             {"strain", "per cent", "um"}},
-        Bad{"LateralInFallingStrain", "lateral_strain",
+        Bad{"LateralInFallingStrain",
+            "lateral_strain",
             rows("strain,lateral_strain",
                  [](int k) { return fmt::format("{},{}", 0.01 * (10 - k), 0.003 * (10 - k)); }),
-            "", {"0.09 after 0.1", "order"}},
-        Bad{"LateralInPerCent", "lateral_strain",
-            rows("strain,lateral_strain", [](int k) { return fmt::format("{},{}", 0.002 * k, 0.06 * k); }), "",
+            "",
+            {"0.09 after 0.1", "order"}},
+        Bad{"LateralInPerCent",
+            "lateral_strain",
+            rows("strain,lateral_strain", [](int k) { return fmt::format("{},{}", 0.002 * k, 0.06 * k); }),
+            "",
             {"lateral_strain", "per cent"}},
-        Bad{"LateralWithAbsurdSigma", "lateral_strain",
-            rows("strain,lateral_strain,sigma", [](int k) { return fmt::format("{},{},1e12", 0.01 * k, 0.003 * k); }),
-            "", {"sigma", "1e+12"}},
+        Bad{"LateralWithAbsurdSigma",
+            "lateral_strain",
+            rows("strain,lateral_strain,sigma",
+                 [](int k) { return fmt::format("{},{},1e12", 0.01 * k, 0.003 * k); }),
+            "",
+            {"sigma", "1e+12"}},
         Bad{"CoordinationWithAbsurdSigma", "coordination", "z,z_sigma\n6,1e12\n", "", {"z_sigma", "1e+12"}},
-        Bad{"SeriesInMegapascals", "modulus_series", "E_p_pa,modulus_pa,modulus_sigma_pa\n1.5e6,20,1\n", "",
+        Bad{"SeriesInMegapascals",
+            "modulus_series",
+            "E_p_pa,modulus_pa,modulus_sigma_pa\n1.5e6,20,1\n",
+            "",
             {"modulus_pa", "MPa"}},
-        Bad{"SeriesOfPolymersInMegapascals", "modulus_series",
-            "E_p_pa,modulus_pa,modulus_sigma_pa\n1.5,2e7,1e6\n3,4e7,1e6\n", "", {"E_p_pa", "MPa"}},
-        Bad{"SeriesOfContentsInPerCent", "modulus_series", "W,modulus_pa,modulus_sigma_pa\n2.3,2e7,1e6\n", "",
+        Bad{"SeriesOfPolymersInMegapascals",
+            "modulus_series",
+            "E_p_pa,modulus_pa,modulus_sigma_pa\n1.5,2e7,1e6\n3,4e7,1e6\n",
+            "",
+            {"E_p_pa", "MPa"}},
+        Bad{"SeriesOfContentsInPerCent",
+            "modulus_series",
+            "W,modulus_pa,modulus_sigma_pa\n2.3,2e7,1e6\n",
+            "",
             {"W", "per cent"}},
-        Bad{"SeriesWithAbsurdSigma", "modulus_series", "E_p_pa,modulus_pa,modulus_sigma_pa\n1.5e6,2e7,1e12\n", "",
+        Bad{"SeriesWithAbsurdSigma",
+            "modulus_series",
+            "E_p_pa,modulus_pa,modulus_sigma_pa\n1.5e6,2e7,1e12\n",
+            "",
             {"modulus_sigma_pa", "1e+12"}},
-        Bad{"BridgesInKilonewtonsPerMetre", "bridge_stiffness", bridges_in(1e-3), "",
+        Bad{"BridgesInKilonewtonsPerMetre",
+            "bridge_stiffness",
+            bridges_in(1e-3),
+            "",
             {"kn_n_per_m", "finite elements", "kN/m"}},
-        Bad{"BridgesInMillinewtonsPerMetre", "bridge_stiffness", bridges_in(1e3), "",
+        Bad{"BridgesInMillinewtonsPerMetre",
+            "bridge_stiffness",
+            bridges_in(1e3),
+            "",
             {"kn_n_per_m", "finite elements", "mN/m"}},
-        Bad{"BridgesInNewtonsPerMicrometre", "bridge_stiffness", bridges_in(1e-6), "",
+        Bad{"BridgesInNewtonsPerMicrometre",
+            "bridge_stiffness",
+            bridges_in(1e-6),
+            "",
             {"kn_n_per_m", "finite elements", "N/um"}},
-        Bad{"BridgesWithNecksInMillimetres", "bridge_stiffness", bridge(0.074, 200, 5760, 300), "", {"d_um", "mm"}},
+        Bad{"BridgesWithNecksInMillimetres",
+            "bridge_stiffness",
+            bridge(0.074, 200, 5760, 300),
+            "",
+            {"d_um", "mm"}},
         Bad{"BridgesInMillimetres", "bridge_stiffness", bridge(0.074, 0.2, 5760, 300), "", {"D_um", "mm"}},
         Bad{"BridgesInMetres", "bridge_stiffness", bridge(74e-6, 200e-6, 5760, 300), "", {"D_um", "in m?"}},
-        Bad{"BridgesThickerThanTheirBeads", "bridge_stiffness",
-            "d_um,D_um,kn_n_per_m,kn_sigma_n_per_m\n74,200,5760,300\n74,200,5760,300\n210,200,5760,300\n", "",
+        Bad{"BridgesThickerThanTheirBeads",
+            "bridge_stiffness",
+            "d_um,D_um,kn_n_per_m,kn_sigma_n_per_m\n74,200,5760,300\n74,200,5760,300\n210,200,5760,300\n",
+            "",
             {"210", "thinner"}},
-        Bad{"BridgesWithAbsurdSigma", "bridge_stiffness", bridge(74, 200, 5760, 1e12), "",
+        Bad{"BridgesWithAbsurdSigma",
+            "bridge_stiffness",
+            bridge(74, 200, 5760, 1e12),
+            "",
             {"kn_sigma_n_per_m", "1e+12"}},
-        Bad{"BridgesWithoutSigma", "bridge_stiffness", "d_um,D_um,kn_n_per_m\n74,200,5760\n", "",
+        Bad{"BridgesWithoutSigma",
+            "bridge_stiffness",
+            "d_um,D_um,kn_n_per_m\n74,200,5760\n",
+            "",
             {"kn_n_per_m without kn_sigma_n_per_m"}},
-        Bad{"NecksInMillimetres", "bridge_diameters",
-            rows("d_um", [](int k) { return fmt::format("{}", 0.07 + 0.001 * k); }), "", {"d_um", "mm"}},
-        Bad{"NecksWithAbsurdSigma", "bridge_diameters",
-            rows("d_um,sigma_um", [](int k) { return fmt::format("{},1e12", 70 + k); }), "", {"sigma_um", "1e+12"}},
-        Bad{"GapsInMillimetres", "bridge_gaps", rows("gap_um", [](int k) { return fmt::format("{}", 0.002 + 1e-4 * k); }),
-            "", {"gap_um", "mm"}},
-        Bad{"GapsInMetres", "bridge_gaps", rows("gap_um", [](int k) { return fmt::format("{}", 2e-6 + 1e-7 * k); }), "",
+        Bad{"NecksInMillimetres",
+            "bridge_diameters",
+            rows("d_um", [](int k) { return fmt::format("{}", 0.07 + 0.001 * k); }),
+            "",
+            {"d_um", "mm"}},
+        Bad{"NecksWithAbsurdSigma",
+            "bridge_diameters",
+            rows("d_um,sigma_um", [](int k) { return fmt::format("{},1e12", 70 + k); }),
+            "",
+            {"sigma_um", "1e+12"}},
+        Bad{"GapsInMillimetres",
+            "bridge_gaps",
+            rows("gap_um", [](int k) { return fmt::format("{}", 0.002 + 1e-4 * k); }),
+            "",
+            {"gap_um", "mm"}},
+        Bad{"GapsInMetres",
+            "bridge_gaps",
+            rows("gap_um", [](int k) { return fmt::format("{}", 2e-6 + 1e-7 * k); }),
+            "",
             {"gap_um", "in m?"}},
-        Bad{"GapsWithAbsurdSigma", "bridge_gaps",
-            rows("gap_um,sigma_um", [](int k) { return fmt::format("{},1e12", 2 + k); }), "", {"sigma_um", "1e+12"}}),
+        Bad{"GapsWithAbsurdSigma",
+            "bridge_gaps",
+            rows("gap_um,sigma_um", [](int k) { return fmt::format("{},1e12", 2 + k); }),
+            "",
+            {"sigma_um", "1e+12"}}),
     [](const auto& test) { return test.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
     Scans, BadObservation,
     testing::Values(
         Bad{"FieldAtRest", "displacements", moved([](Followed&) {}, 0.0), kBeads, {"strain"}},
-        Bad{"FieldOfAnotherSpecimen", "displacements", of_other_beads(), kBeads, {"beads.csv", "another specimen"}},
-        Bad{"FieldOfAnotherSpecimensMotion", "displacements", mixed_up(), kBeads, {"neighbours", "another specimen"}},
-        Bad{"FieldTurned", "displacements", seen_as([](const Vec3& p) -> Vec3 { return {p.z(), p.y(), -p.x()}; }), kBeads,
+        Bad{"FieldOfAnotherSpecimen",
+            "displacements",
+            of_other_beads(),
+            kBeads,
+            {"beads.csv", "another specimen"}},
+        Bad{"FieldOfAnotherSpecimensMotion",
+            "displacements",
+            mixed_up(),
+            kBeads,
+            {"neighbours", "another specimen"}},
+        Bad{"FieldTurned",
+            "displacements",
+            seen_as([](const Vec3& p) -> Vec3 {
+              return {p.z(), p.y(), -p.x()};
+            }),
+            kBeads,
             {"turned"}},
-        Bad{"FieldMirrored", "displacements", seen_as([](const Vec3& p) -> Vec3 { return {-p.x(), p.y(), p.z()}; }),
-            kBeads, {"mirrored"}},
-        Bad{"MotionTurned", "displacements",
-            moved([](Followed& row) { row.motion = {row.motion.z(), row.motion.y(), -row.motion.x()}; }), kBeads,
+        Bad{"FieldMirrored",
+            "displacements",
+            seen_as([](const Vec3& p) -> Vec3 {
+              return {-p.x(), p.y(), p.z()};
+            }),
+            kBeads,
+            {"mirrored"}},
+        Bad{"MotionTurned",
+            "displacements",
+            moved([](Followed& row) {
+              row.motion = {row.motion.z(), row.motion.y(), -row.motion.x()};
+            }),
+            kBeads,
             {"degrees to z", "turned"}},
-        Bad{"MotionOfTheOtherSign", "displacements", moved([](Followed& row) { row.motion = -row.motion; }), kBeads,
+        Bad{"MotionOfTheOtherSign",
+            "displacements",
+            moved([](Followed& row) { row.motion = -row.motion; }),
+            kBeads,
             {"degrees to z", "sign"}},
-        Bad{"MotionMirroredInThePlane", "displacements",
-            moved([](Followed& row) { row.motion.z() = -row.motion.z(); }), kBeads, {"degrees to z", "mirrored"}},
-        Bad{"PlacesOfTheSecondScanMirrored", "displacements", moved([](Followed& row) {
+        Bad{"MotionMirroredInThePlane",
+            "displacements",
+            moved([](Followed& row) { row.motion.z() = -row.motion.z(); }),
+            kBeads,
+            {"degrees to z", "mirrored"}},
+        Bad{"PlacesOfTheSecondScanMirrored",
+            "displacements",
+            moved([](Followed& row) {
               const Vec3 now = row.at + row.motion;
               row.motion = Vec3(-now.x(), now.y(), now.z()) - row.at;
             }),
-            kBeads, {"rigid motion", "mirrored"}},
-        Bad{"MotionInMillimetres", "displacements", moved([](Followed& row) { row.motion *= 1e-3; }), kBeads,
+            kBeads,
+            {"rigid motion", "mirrored"}},
+        Bad{"MotionInMillimetres",
+            "displacements",
+            moved([](Followed& row) { row.motion *= 1e-3; }),
+            kBeads,
             {"rigid motion", "mm"}},
         Bad{"FieldInMillimetres", "displacements", moved([](Followed&) {}, 0.02, 1e-3), kBeads, {"in mm"}},
         Bad{"FieldInMetres", "displacements", moved([](Followed&) {}, 0.02, 1.0), kBeads, {"in m?"}},
-        Bad{"FieldWithOtherIds", "displacements", moved([](Followed& row) { row.id += 1000; }), kBeads,
+        Bad{"FieldWithOtherIds",
+            "displacements",
+            moved([](Followed& row) { row.id += 1000; }),
+            kBeads,
             {"column bead_id", "1001", "beads.csv"}},
-        Bad{"FieldWithShiftedIds", "displacements", moved([](Followed& row) { row.id = row.id % 256 + 1; }), kBeads,
+        Bad{"FieldWithShiftedIds",
+            "displacements",
+            moved([](Followed& row) { row.id = row.id % 256 + 1; }),
+            kBeads,
             {"another specimen"}},
-        Bad{"FieldWithABeadTwice", "displacements", moved([](Followed& row) { row.id = std::max<std::int64_t>(row.id, 2); }),
-            "", {"twice"}},
-        Bad{"FieldWithAbsurdSigma", "displacements", moved([](Followed&) {}, 0.02, 1e-6, 1e12), kBeads,
+        Bad{"FieldWithABeadTwice",
+            "displacements",
+            moved([](Followed& row) { row.id = std::max<std::int64_t>(row.id, 2); }),
+            "",
+            {"twice"}},
+        Bad{"FieldWithAbsurdSigma",
+            "displacements",
+            moved([](Followed&) {}, 0.02, 1e-6, 1e12),
+            kBeads,
             {"sigma_um", "1e+12"}},
         Bad{"BridgesOfUnknownBeads", "bridges", network(240, 1), kBeads, {"bead"}},
         Bad{"BridgesOfAnotherSpecimen", "bridges", network(1, 150), kBeads, {"another specimen"}},
@@ -237,6 +351,25 @@ TEST(GoodObservation, BridgesOfTheRightUnitAreTaken) {
   EXPECT_TRUE(read(folder, "bridge_stiffness", bridges_in(1.0)).warnings.empty());
 }
 
+TEST(GoodObservation, BeadsThatCameLooseOrWereLostAreLeftOut) {
+  ScratchFolder folder;
+  auto rows = followed_rows(followed_specimen(), 0.02);
+  rows[7].motion = {0, 0, -3e-4};
+  rows.erase(rows.begin() + 20, rows.begin() + 30);
+  std::string table = followed_text(rows, 0.02);
+  std::size_t at = 0;
+  for (int line = 0; (at = table.find('\n', at)) != std::string::npos; ++line, ++at) {
+    const std::string state = line == 0 ? ",state" : line == 8 ? ",loose" : ",followed";
+    table.insert(at, state);
+    at += state.size();
+  }
+  const auto experiment = read(folder, "displacements", table, kBeads);
+  EXPECT_TRUE(experiment.warnings.empty());
+  const auto& ids = experiment.observations[0].column("bead_id");
+  EXPECT_EQ(ids.size(), 256u - 11u);
+  EXPECT_EQ(std::count(ids.begin(), ids.end(), 8.0), 0);
+}
+
 struct Odd {
   std::string name, kind, table, keys, told;
 };
@@ -255,13 +388,15 @@ INSTANTIATE_TEST_SUITE_P(
     Table, OddObservation,
     testing::Values(
         Odd{"CurveWithSigmaZero", "compression",
-            rows("strain,stress_pa,stress_sigma_pa", [](int k) { return fmt::format("{},{},0", 0.008 * k, 1.5e5 * k); }),
+            rows("strain,stress_pa,stress_sigma_pa",
+                 [](int k) { return fmt::format("{},{},0", 0.008 * k, 1.5e5 * k); }),
             "", "stress_sigma_pa holds zeros"},
         Odd{"CoordinationWithSigmaZero", "coordination", "z,z_sigma\n6,0\n", "", "z_sigma holds zeros"},
-        Odd{"FieldWithSigmaZero", "displacements", moved([](Followed&) {}, 0.02, 1e-6, 0.0), kBeads, "sigma_um holds zeros"},
+        Odd{"FieldWithSigmaZero", "displacements", moved([](Followed&) {}, 0.02, 1e-6, 0.0), kBeads,
+            "sigma_um holds zeros"},
         Odd{"SpecimenThatShrinksSideways", "lateral_strain",
-            rows("strain,lateral_strain", [](int k) { return fmt::format("{},{}", 0.01 * k, -0.003 * k); }), "",
-            "expansion is positive"},
+            rows("strain,lateral_strain", [](int k) { return fmt::format("{},{}", 0.01 * k, -0.003 * k); }),
+            "", "expansion is positive"},
         Odd{"EveryPairBridged", "bridges",
             [] {
               std::string text = "bead_i,bead_j\n";

@@ -26,7 +26,8 @@ FollowedBeads followed(double share_lost = 0.0) {
 template <typename Motion>
 Eigen::VectorXd field(const FollowedBeads& of, const Motion& motion) {
   Eigen::VectorXd values(3 * static_cast<Eigen::Index>(of.beads.size()));
-  for (std::size_t k = 0; k < of.beads.size(); ++k) values.segment<3>(3 * static_cast<Eigen::Index>(k)) = motion(of.beads[k]);
+  for (std::size_t k = 0; k < of.beads.size(); ++k)
+    values.segment<3>(3 * static_cast<Eigen::Index>(k)) = motion(of.beads[k]);
   return values;
 }
 
@@ -37,7 +38,9 @@ Eigen::VectorXd reference(const FollowedBeads& of) {
 
 /// An effect that does the same in every run: the specimen bends, 3 µm at θ = 1.
 Eigen::VectorXd bending(const FollowedBeads& of, double theta) {
-  return field(of, [&](const Bead& bead) -> Vec3 { return {3.0 * theta * std::sin(3e3 * bead.centre.z()), 0, 0}; });
+  return field(of, [&](const Bead& bead) -> Vec3 {
+    return {3.0 * theta * std::sin(3e3 * bead.centre.z()), 0, 0};
+  });
 }
 
 /// An effect that leaves to chance which beads move: one in five, by 5 µm at θ = 1.
@@ -45,7 +48,10 @@ Eigen::VectorXd drawn(const FollowedBeads& of, double theta, std::uint64_t draw)
   return field(of, [&](const Bead& bead) -> Vec3 {
     const auto id = static_cast<std::uint64_t>(bead.id);
     if (random_uniform(draw, id) > 0.2) return Vec3::Zero();
-    return 5.0 * theta * Vec3(random_normal(draw, 1000 + 3 * id), random_normal(draw, 1001 + 3 * id), random_normal(draw, 1002 + 3 * id)) / std::sqrt(3.0);
+    return 5.0 * theta *
+           Vec3(random_normal(draw, 1000 + 3 * id), random_normal(draw, 1001 + 3 * id),
+                random_normal(draw, 1002 + 3 * id)) /
+           std::sqrt(3.0);
   });
 }
 
@@ -61,13 +67,15 @@ std::vector<BankField> bank(const FollowedBeads& of) {
       const int member = 1 + (3 * level + draw) % 6;
       const Eigen::VectorXd baseline = all[static_cast<std::size_t>(member) - 1].values;
       all.push_back({member, "bending", theta, baseline + bending(of, theta)});
-      all.push_back({member, "drawn", theta, baseline + drawn(of, theta, static_cast<std::uint64_t>(10 * level + draw))});
+      all.push_back({member, "drawn", theta,
+                     baseline + drawn(of, theta, static_cast<std::uint64_t>(10 * level + draw))});
     }
   return all;
 }
 
 double named(const FieldStatistics& statistics, const Eigen::VectorXd& values, const std::string& name) {
-  const auto at = std::find(statistics.names().begin(), statistics.names().end(), name) - statistics.names().begin();
+  const auto at =
+      std::find(statistics.names().begin(), statistics.names().end(), name) - statistics.names().begin();
   return values[at];
 }
 
@@ -80,7 +88,8 @@ TEST(FieldStatistics, WhatEveryRunShowsIsAModeAndWhatIsDrawnIsNone) {
   // Its score is the planted motion's size per bead, and as much less at half the magnitude.
   const double whole = named(read, read(read.reference() + planted), "mode_1"),
                half = named(read, read(read.reference() + 0.5 * planted), "mode_1");
-  EXPECT_NEAR(std::fabs(whole), planted.norm() / std::sqrt(static_cast<double>(beads.beads.size())), 0.02 * std::fabs(whole));
+  EXPECT_NEAR(std::fabs(whole), planted.norm() / std::sqrt(static_cast<double>(beads.beads.size())),
+              0.02 * std::fabs(whole));
   EXPECT_NEAR(half, 0.5 * whole, 1e-9);
 }
 
@@ -111,12 +120,14 @@ TEST(FieldStatistics, NoiseHasTheStatedSizeAndIsTakenOff) {
   EXPECT_LT((twice - 2.0 * noise).norm(), 1e-12);
   EXPECT_NE(read.noise(8), noise);
   // A wave of ten noises beside the noise: the logarithm of its own size.
-  const Eigen::VectorXd wave =
-      field(beads, [](const Bead& bead) -> Vec3 { return {0, std::sqrt(2.0) * std::sin(2e4 * bead.centre.x()), 0}; });
+  const Eigen::VectorXd wave = field(beads, [](const Bead& bead) -> Vec3 {
+    return {0, std::sqrt(2.0) * std::sin(2e4 * bead.centre.x()), 0};
+  });
   const double size = std::log(wave.norm() / std::sqrt(static_cast<double>(beads.beads.size())));
   EXPECT_NEAR(named(read, read(read.reference() + wave + noise), "field_size"), size, 0.02);
   // Noise alone is no motion: at least half of its size is taken off.
-  EXPECT_LT(named(read, read(read.reference() + noise), "field_size"), std::log(std::sqrt(3.0) * kSigma) - std::log(1.8));
+  EXPECT_LT(named(read, read(read.reference() + noise), "field_size"),
+            std::log(std::sqrt(3.0) * kSigma) - std::log(1.8));
 }
 
 TEST(FieldStatistics, LostBeadsAreNoLoss) {
@@ -135,8 +146,9 @@ TEST(FieldStatistics, TellsWherePairsPart) {
   // Steep pairs, which the compression closes, part by 1 µm: as if the bridges did not yield.
   const auto beads = followed();
   const FieldStatistics read(beads, bank(beads));
-  const Eigen::VectorXd stretched =
-      read.reference() + field(beads, [](const Bead& bead) -> Vec3 { return {0, 0, 0.005 * 1e6 * bead.centre.z()}; });
+  const Eigen::VectorXd stretched = read.reference() + field(beads, [](const Bead& bead) -> Vec3 {
+                                      return {0, 0, 0.005 * 1e6 * bead.centre.z()};
+                                    });
   const auto change = [&](const char* name) {
     return named(read, read(stretched), name) - named(read, read(read.reference()), name);
   };

@@ -21,9 +21,10 @@ inline std::vector<Bead> followed_specimen(std::uint64_t seed = 11) {
     const Vec3 basis[4] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
     Bead bead;
     bead.id = k + 1;
-    bead.centre = a * (cell + basis[k % 4]) + 4e-6 * Vec3(random_normal(seed, 3 * static_cast<std::uint64_t>(k)),
-                                                           random_normal(seed, 3 * static_cast<std::uint64_t>(k) + 1),
-                                                           random_normal(seed, 3 * static_cast<std::uint64_t>(k) + 2));
+    bead.centre =
+        a * (cell + basis[k % 4]) + 4e-6 * Vec3(random_normal(seed, 3 * static_cast<std::uint64_t>(k)),
+                                                random_normal(seed, 3 * static_cast<std::uint64_t>(k) + 1),
+                                                random_normal(seed, 3 * static_cast<std::uint64_t>(k) + 2));
     bead.diameter = d;
     beads.push_back(bead);
   }
@@ -53,8 +54,8 @@ inline std::string followed_text(const std::vector<Followed>& rows, double strai
                                  double sigma_um = 0.1) {
   std::string text = "strain,bead_id,x_um,y_um,z_um,ux_um,uy_um,uz_um,sigma_um\n";
   for (const auto& [id, at, motion] : rows)
-    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", strain, id, at.x() / unit, at.y() / unit, at.z() / unit,
-                        motion.x() / unit, motion.y() / unit, motion.z() / unit, sigma_um);
+    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", strain, id, at.x() / unit, at.y() / unit,
+                        at.z() / unit, motion.x() / unit, motion.y() / unit, motion.z() / unit, sigma_um);
   return text;
 }
 

@@ -1,7 +1,7 @@
 #include "diagnosis/similarity.h"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 
@@ -12,7 +12,8 @@ namespace {
 
 Similarity placed() {
   Similarity motion;
-  motion.rotation = (Eigen::AngleAxisd(2.8, Vec3::UnitZ()) * Eigen::AngleAxisd(0.05, Vec3::UnitX())).toRotationMatrix();
+  motion.rotation =
+      (Eigen::AngleAxisd(2.8, Vec3::UnitZ()) * Eigen::AngleAxisd(0.05, Vec3::UnitX())).toRotationMatrix();
   motion.scale = 1.013;
   motion.shift = {40e-6, -30e-6, 15e-6};
   return motion;
@@ -57,7 +58,8 @@ TEST(Similarity, HowTheSecondScanLiesAndItsVoxelSizeDoNotMatter) {
   const Similarity motion = placed();
   const auto rest = places(), displacement = compression();
   std::vector<Vec3> otherwise;
-  for (std::size_t k = 0; k < rest.size(); ++k) otherwise.push_back(motion(rest[k] + displacement[k]) - rest[k]);
+  for (std::size_t k = 0; k < rest.size(); ++k)
+    otherwise.push_back(motion(rest[k] + displacement[k]) - rest[k]);
   const auto one = without_rigid_motion(rest, displacement), other = without_rigid_motion(rest, otherwise);
   for (std::size_t k = 0; k < rest.size(); ++k) EXPECT_LT((one[k] - other[k]).norm(), 1e-13);
 }

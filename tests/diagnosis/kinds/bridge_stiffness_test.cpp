@@ -35,7 +35,8 @@ TEST(BridgeStiffness, FollowsTheStatedOne) {
 TEST(BridgeStiffness, IsAModulusTimesALength) {
   // Elasticity knows no length of its own: a body twice as large of a polymer thrice as stiff is six times as
   // stiff.
-  Observation small = tested({{"d_um", {60.0}}, {"D_um", {200.0}}}), large = tested({{"d_um", {120.0}}, {"D_um", {400.0}}});
+  Observation small = tested({{"d_um", {60.0}}, {"D_um", {200.0}}}),
+              large = tested({{"d_um", {120.0}}, {"D_um", {400.0}}});
   small.numbers["gap_um"] = 2.0, large.numbers["gap_um"] = 4.0;
   Sample sample;
   const Columns one = simulated(small, sample);
@@ -57,7 +58,8 @@ TEST(BridgeStiffness, BridgesFromTheSpecimenHaveItsGaps) {
   for (std::uint64_t k = 0; k < 4000; ++k)
     bodies.push_back({74e-6, 2e-6 - 3e-6 * std::log(1.0 - random_uniform(3, k)), 200.9e-6, 200.9e-6});
   double mean = 0.0;
-  for (const auto& bond : bridge_stiffnesses(bodies, polymer_of(sample)).bonds) mean += std::log(bond.normal) / 4000.0;
+  for (const auto& bond : bridge_stiffnesses(bodies, polymer_of(sample)).bonds)
+    mean += std::log(bond.normal) / 4000.0;
   EXPECT_NEAR(std::log(simulated(cut, sample).at("kn_n_per_m")[0]), mean, 0.03);
   EXPECT_EQ(simulated(made, sample).at("kn_n_per_m"), simulated(made, Sample{}).at("kn_n_per_m"));
 }
@@ -66,7 +68,8 @@ TEST(BridgeStiffness, LevelAndExponentOfAPowerLaw) {
   Columns columns;
   for (const double d : {40.0, 60.0, 80.0, 100.0}) {
     columns["d_um"].push_back(d), columns["D_um"].push_back(200.0);
-    columns["kn_n_per_m"].push_back(3.0 * std::pow(d, 1.5)), columns["kn_sigma_n_per_m"].push_back(0.15 * std::pow(d, 1.5));
+    columns["kn_n_per_m"].push_back(3.0 * std::pow(d, 1.5)),
+        columns["kn_sigma_n_per_m"].push_back(0.15 * std::pow(d, 1.5));
   }
   Observation table = tested(columns);
   EXPECT_NEAR(value(table, "kn_exponent"), 1.5, 1e-9);

@@ -57,7 +57,8 @@ TEST(Bridges, ErrorsOfNecksAreTakenOffTheirSpread) {
 
 TEST(Bridges, StatesChangeAsOftenAsTheirProbabilitySays) {
   Observation sure = network([](int k) { return double(k % 2); });
-  for (const double joined : sure.column("joined")) sure.columns["probability"].push_back(joined == 1.0 ? 0.9 : 0.05);
+  for (const double joined : sure.column("joined"))
+    sure.columns["probability"].push_back(joined == 1.0 ? 0.9 : 0.05);
   double lost = 0.0, won = 0.0;
   for (unsigned long seed = 0; seed < 20; ++seed) {
     const auto again = sure.kind->perturbed(sure, 100 * seed).at("joined");
@@ -72,7 +73,8 @@ TEST(Bridges, StatesChangeAsOftenAsTheirProbabilitySays) {
 }
 
 /// A frame in which the pairs of some numbers stand, and others are broken.
-SimulatedTest scan(double strain, const std::function<bool(int)>& stands, const std::function<bool(int)>& broken) {
+SimulatedTest scan(double strain, const std::function<bool(int)>& stands,
+                   const std::function<bool(int)>& broken) {
   SimulatedTest test;
   test.frames.resize(1);
   test.frames[0].strain = strain;
@@ -87,7 +89,8 @@ SimulatedTest scan(double strain, const std::function<bool(int)>& stands, const 
 TEST(Bridges, AreSimulatedByTheFrameOfTheScan) {
   Observation loaded = network([](int) { return 1.0; });
   std::swap(loaded.columns["bead_i"][0], loaded.columns["bead_j"][0]);  // pairs have no order
-  const auto test = scan(0.02, [](int k) { return k < 100; }, [](int k) { return k >= 100 && k < 140; });
+  const auto test = scan(
+      0.02, [](int k) { return k < 100; }, [](int k) { return k >= 100 && k < 140; });
   const auto share = [&] {
     return value(features_of(Level::readings, loaded, loaded.kind->simulate(loaded, {Sample{}, &test})),
                  "bridged_share");
@@ -100,7 +103,8 @@ TEST(Bridges, AreSimulatedByTheFrameOfTheScan) {
 
 TEST(Bridges, SimulatedNecksAreTheSamples) {
   const Observation necks = network([](int) { return 1.0; }, 7.0, 5.0);
-  const auto test = scan(1e-3, [](int) { return true; }, [](int) { return false; });
+  const auto test = scan(
+      1e-3, [](int) { return true; }, [](int) { return false; });
   Sample sample;
   sample.bridges.diameter = 60e-6, sample.bridges.diameter_sd = 6e-6;
   const auto features = features_of(Level::readings, necks, necks.kind->simulate(necks, {sample, &test}));

@@ -13,8 +13,8 @@ using test::sigma;
 using test::value;
 
 TEST(BrokenBonds, ScatterAsCountsDo) {
-  const Observation breaks =
-      observation(kinds::broken_bonds(), "AE", {{"strain", {0.01, 0.02, 0.03, 0.04}}, {"count", {0, 100, 250, 400}}});
+  const Observation breaks = observation(
+      kinds::broken_bonds(), "AE", {{"strain", {0.01, 0.02, 0.03, 0.04}}, {"count", {0, 100, 250, 400}}});
   EXPECT_EQ(value(breaks, "breaks_at_half"), 101.0);
   EXPECT_NEAR(sigma(breaks, "breaks_at_half"), 0.1, 0.02);
   EXPECT_NEAR(sigma(breaks, "breaks_at_end"), 0.05, 0.01);
@@ -34,7 +34,8 @@ TEST(BrokenBonds, AreReadByStraightLinesFromNoneAtRest) {
   EXPECT_NEAR(count("2.0"), 80.0, 1e-9);
   // On the way of an unloading nothing breaks for the first time.
   Columns loop = {{"strain", {0.01, 0.02, 0.015, 0.02, 0.03}}, {"count", {10, 80, 80, 80, 240}}};
-  EXPECT_NEAR(value(features_of(Level::readings, breaks, loop), "root_breaks_at_2.0_percent"), std::sqrt(80.25), 1e-9);
+  EXPECT_NEAR(value(features_of(Level::readings, breaks, loop), "root_breaks_at_2.0_percent"),
+              std::sqrt(80.25), 1e-9);
 }
 
 TEST(BrokenBonds, OfEachRowAreAddedUp) {

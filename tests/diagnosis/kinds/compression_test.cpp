@@ -54,7 +54,8 @@ TEST(Compression, ReadingsOfALoopAreSharesOfTheStressAtItsTurn) {
   // Along a straight line to zero stress, a depth of a fifth of the strain is a fifth of the stress.
   for (const auto& [depth, share] : {std::pair("20", 0.8), {"40", 0.6}, {"60", 0.4}, {"80", 0.2}})
     for (const char* way : {"unloading", "reloading"})
-      EXPECT_NEAR(value(measured(), fmt::format("{}_1_at_{}_percent", way, depth), Level::readings), share, 0.005)
+      EXPECT_NEAR(value(measured(), fmt::format("{}_1_at_{}_percent", way, depth), Level::readings), share,
+                  0.005)
           << way << depth;
 }
 
@@ -66,14 +67,16 @@ TEST(Compression, AScaledCurveDiffersByItsFactorAlone) {
   ASSERT_EQ(before.size(), after.size());
   for (std::size_t k = 0; k < before.size(); ++k)
     EXPECT_NEAR(after[k].compared() - before[k].compared(),
-                before[k].name.starts_with("stress_at") && before[k].strain_to > kFloor ? std::log(0.7) : 0.0, 1e-9)
+                before[k].name.starts_with("stress_at") && before[k].strain_to > kFloor ? std::log(0.7) : 0.0,
+                1e-9)
         << before[k].name;
 }
 
 TEST(Compression, NothingIsReadBeyondACurve) {
   Columns shorter = curve();
   for (auto& [name, column] : shorter) column.resize(120);  // to 3 %
-  for (const auto& feature : features_of(Level::readings, measured(), shorter)) EXPECT_LE(feature.strain_to, 0.03);
+  for (const auto& feature : features_of(Level::readings, measured(), shorter))
+    EXPECT_LE(feature.strain_to, 0.03);
 }
 
 TEST(Compression, IsSimulatedByTheRowsOfItsTest) {
@@ -96,8 +99,10 @@ TEST(Compression, ItsTestGoesAsFarAndUnloadsWhereItDid) {
 TEST(Compression, NoiseHasTheStatedSizeAndHalfOfItLasts) {
   Columns columns;
   for (int k = 0; k < 4000; ++k)
-    columns["strain"].push_back(1e-5 * k), columns["stress_pa"].push_back(0.0), columns["stress_sigma_pa"].push_back(3e3);
-  const auto stress = kinds::compression().perturbed(observation(kinds::compression(), "A", columns), 5).at("stress_pa");
+    columns["strain"].push_back(1e-5 * k), columns["stress_pa"].push_back(0.0),
+        columns["stress_sigma_pa"].push_back(3e3);
+  const auto stress =
+      kinds::compression().perturbed(observation(kinds::compression(), "A", columns), 5).at("stress_pa");
   double square = 0.0, next = 0.0;
   for (std::size_t k = 1; k < stress.size(); ++k)
     square += stress[k] * stress[k] / 4000.0, next += stress[k] * stress[k - 1] / 4000.0;

@@ -1,5 +1,5 @@
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 
@@ -38,8 +38,8 @@ std::vector<Vec3> grid() {
 }
 
 TEST(Displacements, LandmarksOfAnAffineMotion) {
-  // Strain along z 0.8 of the platen's, expansion across it 0.3 of it; a gradient of u_z along x of 0.1, half of
-  // which is a turn of the whole.
+  // Strain along z 0.8 of the platen's, expansion across it 0.3 of it; a gradient of u_z along x of 0.1, half
+  // of which is a turn of the whole.
   const double strain = 0.002;
   const Observation tracked =
       observation(kinds::displacements(), "scan", scan(grid(), strain, [&](const Vec3& at) -> Vec3 {
@@ -54,11 +54,12 @@ TEST(Displacements, ATurnedShiftedAndScaledScanHasTheSameFieldAndLandmarks) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.9, Vec3(0.02, -0.03, 1.0).normalized()).toRotationMatrix();
   const auto motion = [](const Vec3& at) -> Vec3 { return 1e6 * test::compressed(1e-6 * at, 0.02); };
   const Observation one = observation(kinds::displacements(), "one", scan(grid(), 0.02, motion)),
-                    other = observation(
-                        kinds::displacements(), "other", scan(grid(), 0.02, [&](const Vec3& at) -> Vec3 {
-                          return 0.995 * (turn * (at + motion(at))) + Vec3(30, -20, 10) - at;
-                        }));
-  const Eigen::VectorXd of_one = one.kind->field(one, one.columns), of_other = other.kind->field(other, other.columns);
+                    other = observation(kinds::displacements(), "other",
+                                        scan(grid(), 0.02, [&](const Vec3&at) -> Vec3 {
+                                          return 0.995 * (turn * (at + motion(at))) + Vec3(30, -20, 10) - at;
+                                        }));
+  const Eigen::VectorXd of_one = one.kind->field(one, one.columns),
+                        of_other = other.kind->field(other, other.columns);
   EXPECT_GT(of_one.norm(), 1e-4);
   EXPECT_LT((of_one - of_other).norm(), 1e-9 * of_one.norm());
   for (const auto& feature : features_of(Level::landmarks, one, one.columns))
@@ -104,8 +105,8 @@ TEST(Displacements, NoiseHasTheStatedSizeAlongEachAxis) {
 }
 
 TEST(Displacements, ItsTestKeepsAFrameAtRestAndAtItsStrain) {
-  const Observation tracked =
-      observation(kinds::displacements(), "scan", scan(grid(), 0.02, [](const Vec3&) -> Vec3 { return Vec3::Zero(); }));
+  const Observation tracked = observation(
+      kinds::displacements(), "scan", scan(grid(), 0.02, [](const Vec3&) -> Vec3 { return Vec3::Zero(); }));
   Sample::Compression course;
   tracked.kind->course(tracked, course);
   EXPECT_EQ(course.frame_at.front(), kRestStrain);

@@ -1,0 +1,152 @@
+#include "diagnosis/field_readings.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <functional>
+
+#include "diagnosis/experiment.h"
+#include "followed.h"
+#include "packing/tables.h"
+#include "scratch.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+using test::Followed;
+using test::followed_rows;
+using test::followed_specimen;
+
+constexpr double kStrain = 0.02;
+
+/// A scan of a specimen whose beads were measured, and a bank of six baselines and three bent ones.
+class FieldReadingsTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_beads(folder / "beads.csv", followed_specimen(), {});
+    write_text(folder / "sample.toml",
+               "[beads]\ndiameter_um = 200\n[specimen]\ndiameter_um = 1300\nheight_um = 1200\n");
+    write_text(
+        folder / "e.toml",
+        "[experiment]\nsample = \"sample.toml\"\n[[observation]]\nkind = \"displacements\"\nname = \"scan\"\n"
+        "file = \"scan.csv\"\nbeads = \"beads.csv\"\n");
+    for (int member = 1; member <= 6; ++member) add(member, 0.0);
+    for (int level = 1; level <= 3; ++level) add(level, 0.5 * level);
+  }
+
+  FieldReadings read(const std::vector<Followed>& rows, double sigma_um = 0.1) {
+    write_text(folder / "scan.csv", test::followed_text(rows, kStrain, 1e-6, sigma_um));
+    experiment = read_experiment(folder / "e.toml");
+    plan.conditions = {{experiment.sample, folder / "beads.csv", {0}}};
+    plan.size = {1.0};
+    return field_readings(experiment, plan, 0, tests).value();
+  }
+
+  static std::vector<Followed> bent(double theta) {
+    auto rows = followed_rows(followed_specimen(), kStrain);
+    for (auto& row : rows) row.motion.x() += bending(theta, row.at);
+    return rows;
+  }
+
+  static double named(const FieldReadings& readings, const std::string& name) {
+    for (const auto& feature : readings.observed)
+      if (feature.name == name + "_at_2.00_percent") return feature.value;
+    return std::nan("");
+  }
+
+  pendular::test::ScratchFolder folder;
+  Experiment experiment;
+  BankPlan plan;
+  std::vector<SimulatedTests> tests;
+
+ private:
+  static double bending(double theta, const Vec3& at) { return 3e-6 * theta * std::sin(3e3 * at.z()); }
+
+  void add(int member, double tilt) {
+    DesignPoint point;
+    point.member = member;
+    if (tilt > 0.0) point.id = "platen_tilt", point.theta = tilt, point.changes = {{"platen_tilt", tilt}};
+    plan.points.push_back(point);
+    SimulatedTest test;
+    test.frames.resize(1);
+    test.frames[0].strain = kStrain;
+    for (const auto& bead : followed_specimen()) {
+      const auto draw = static_cast<std::uint64_t>(bead.id);
+      test.frames[0].ids.push_back(bead.id);
+      test.frames[0].rest.push_back(bead.centre);
+      test.frames[0].displacement.push_back(
+          test::compressed(bead.centre, kStrain) + Vec3(bending(tilt, bead.centre), 0, 0) +
+          1e-7 * Vec3(random_normal(static_cast<std::uint64_t>(member), 3 * draw),
+                      random_normal(static_cast<std::uint64_t>(member), 3 * draw + 1),
+                      random_normal(static_cast<std::uint64_t>(member), 3 * draw + 2)));
+    }
+    tests.push_back({test});
+  }
+};
+
+}  // namespace
+
+TEST_F(FieldReadingsTest, ATurnedShiftedAndScaledScanAreTheSame) {
+  const auto rows = bent(0.8);
+  auto turned = rows;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.2, Vec3(0.03, 0.02, 1.0).normalized()).toRotationMatrix();
+  for (auto& row : turned)
+    row.motion = 1.006 * (turn * (row.at + row.motion)) + Vec3(2e-5, -4e-5, 3e-5) - row.at;
+  const FieldReadings one = read(rows), other = read(turned);
+  ASSERT_EQ(one.observed.size(), other.observed.size());
+  for (std::size_t k = 0; k < one.observed.size(); ++k)
+    EXPECT_NEAR(one.observed[k].value, other.observed[k].value, 1e-6) << one.observed[k].name;
+  EXPECT_GT(std::fabs(named(one, "mode_1")), 0.5);
+}
+
+TEST_F(FieldReadingsTest, SimulatedFieldsHaveNoiseOfTheStatedSize) {
+  // The field as believed, seen with an error of 0.5 um: the baselines' readings scatter about what it shows.
+  auto rows = bent(0.0);
+  for (auto& row : rows)
+    for (int axis = 0; axis < 3; ++axis)
+      row.motion[axis] +=
+          5e-7 * random_normal(71, 3 * static_cast<std::uint64_t>(row.id) + static_cast<unsigned>(axis));
+  const FieldReadings stated = read(rows, 0.5), understated = read(rows, 0.1);
+  const auto off = [&](const FieldReadings& of) {
+    double mean = 0.0;
+    std::size_t at = 0;
+    while (of.observed[at].name != "pairs_sliding_at_2.00_percent") ++at;
+    for (std::size_t k = 0; k < 6; ++k) mean += of.of_runs[k][static_cast<Eigen::Index>(at)] / 6.0;
+    return of.observed[at].value - mean;
+  };
+  EXPECT_LT(std::fabs(off(stated)), 0.3);
+  EXPECT_GT(off(understated), 0.8);  // noise that is not stated looks like motion
+  EXPECT_GT(stated.by_noise.norm(), 0.0);
+}
+
+TEST_F(FieldReadingsTest, RunsThatFailedShowNothing) {
+  tests[7] = {std::nullopt};
+  const FieldReadings readings = read(bent(0.3));
+  ASSERT_EQ(readings.of_runs.size(), 9u);
+  EXPECT_TRUE(readings.of_runs[7].array().isNaN().all());
+  EXPECT_TRUE(readings.of_runs[6].allFinite());
+  EXPECT_GT(readings.model.diagonal().minCoeff(), 0.0);
+}
+
+TEST_F(FieldReadingsTest, BeadsThatTheScanLostAreNoLoss) {
+  const auto rows = bent(0.8);
+  auto some = rows;
+  std::erase_if(some, [](const Followed& row) { return row.id % 12 == 0; });
+  const FieldReadings whole = read(rows), part = read(some);
+  ASSERT_EQ(whole.observed.size(), part.observed.size());
+  EXPECT_NEAR(std::fabs(named(part, "mode_1")), std::fabs(named(whole, "mode_1")),
+              0.1 * std::fabs(named(whole, "mode_1")));
+  EXPECT_NEAR(named(part, "field_size"), named(whole, "field_size"), 0.1);
+}
+
+TEST_F(FieldReadingsTest, WithoutABaselineThereAreNone) {
+  for (std::size_t k = 0; k < 6; ++k) tests[k] = {std::nullopt};
+  write_text(folder / "scan.csv", test::followed_text(bent(0.3), kStrain));
+  experiment = read_experiment(folder / "e.toml");
+  plan.conditions = {{experiment.sample, folder / "beads.csv", {0}}};
+  plan.size = {1.0};
+  EXPECT_FALSE(field_readings(experiment, plan, 0, tests));
+}
+
+}  // namespace pendular::diagnosis

@@ -1,0 +1,62 @@
+#include "diagnosis/leading.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace pendular::diagnosis {
+namespace {
+
+/// Four features, which two effects move in directions of their own; a gap of both.
+Problem pair_of(double missing, double friction) {
+  Comparison one;
+  one.gap.covariance = Eigen::Matrix4d::Identity();
+  one.gap.believed = Eigen::MatrixXd::Zero(4, 0);
+  one.signatures = {{"missing_bridges", {100.0 * Eigen::Vector4d(1, 0.5, 0, 0)}, 0.0, 0.3, 0.15, 0.036},
+                    {"bead_friction", {80.0 * Eigen::Vector4d(0, 0, 1, -0.5)}, -0.4, 0.4, 0.2, 0.048}};
+  one.gap.values = one.signatures[0].at(missing) + one.signatures[1].at(friction);
+  return {one, one, {}};
+}
+
+BankPlan plan(int further) {
+  BankPlan made;
+  made.conditions.resize(1);
+  made.size = {1.0};
+  made.further = further;
+  return made;
+}
+
+TEST(Leading, PairsThatMightExplainTheGapAreRunNearTheirMagnitudes) {
+  const auto points = leading_points(pair_of(0.2, -0.26), {}, plan(96));
+  std::map<std::string, std::set<int>> members;
+  for (const auto& point : points) {
+    members[point.id].insert(point.member);
+    if (point.changes.size() != 2) continue;
+    EXPECT_NEAR(point.changes.at("missing_bridges"), 0.2, 1e-9);  // thirds of 0.3 and of −0.4
+    EXPECT_NEAR(point.changes.at("bead_friction"), -0.8 / 3.0, 1e-9);
+  }
+  EXPECT_EQ(members["bead_friction+missing_bridges"], (std::set<int>{1, 2, 3, 4}));
+}
+
+TEST(Leading, WhatWasRunIsNotRunAgain) {
+  BankPlan known = plan(96);
+  const Problem problem = pair_of(0.2, -0.26);
+  known.points = leading_points(problem, {}, known);
+  ASSERT_FALSE(known.points.empty());
+  EXPECT_TRUE(leading_points(problem, {}, known).empty());
+}
+
+TEST(Leading, TheBudgetIsKept) {
+  EXPECT_TRUE(leading_points(pair_of(0.2, -0.26), {}, plan(3)).empty());
+  EXPECT_EQ(leading_points(pair_of(0.2, -0.26), {}, plan(4)).size(), 4u);
+}
+
+TEST(Leading, NothingLeadsWhereThereIsNoGap) {
+  for (const auto& point : leading_points(pair_of(0.0, 0.0), {}, plan(96)))
+    EXPECT_EQ(point.changes.size(), 1u);
+}
+
+}  // namespace
+}  // namespace pendular::diagnosis
