@@ -104,7 +104,9 @@ const std::vector<NumberKey>& number_keys() {
 
 const std::vector<WordKey>& word_keys() {
   static const std::vector<WordKey> keys = {
-      {"beads.diameters", {"drawn", "measured"}, [](Sample& s) -> std::string& { return s.beads.diameters; }},
+      {"beads.diameters",
+       {"auto", "measured", "drawn"},
+       [](Sample& s) -> std::string& { return s.beads.diameters; }},
       {"bridges.stiffness",
        {"one", "per_bridge"},
        [](Sample& s) -> std::string& { return s.bridges.stiffness; }},

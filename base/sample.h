@@ -23,7 +23,8 @@ struct Sample {
     double realisation_sd = 0.05;  ///< spread of drawn diameters, share of the mean (paper, Sec. 3.2.1)
     double density = 2540.0;       ///< kg/m3
     std::string diameters =
-        "drawn";  ///< "drawn" as the paper does, or "measured": as they are in the packing
+        "auto";  ///< "measured": as they are in the packing; "drawn" anew as the paper does; "auto": measured
+                 ///< where their errors are stated, else drawn (packing/measurement.h)
   } beads;
 
   struct Bridges {

@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "effects/compress.h"
 #include "effects/list.h"
+#include "packing/measurement.h"
 #include "packing/vtp.h"
 
 namespace pendular::cli {
@@ -26,12 +27,14 @@ double number(const nlohmann::ordered_json& json, const char* outer, const char*
 std::string in_words(const nlohmann::ordered_json& result) {
   const auto& limit = result["linear_limit_strain"];
   return fmt::format(
-      "E = {:.2f} MPa, linear to {}, peak {:.3f} MPa at {:.2f} %, {} of {} bonds broken, work balance {:.1e}",
+      "E = {:.2f} MPa, linear to {}, peak {:.3f} MPa at {:.2f} %, {} of {} bonds broken, "
+      "work balance {:.1e}, diameters {}",
       1e-6 * number(result, "linear_modulus_pa", "value"),
       limit.is_number() ? fmt::format("{:.2f} %", 100.0 * limit.get<double>()) : "the end",
       1e-6 * number(result, "peak", "stress_pa"), 100.0 * number(result, "peak", "strain"),
       result["broken_bonds"].get<int>(), result["bonds"].get<int>(),
-      number(result, "work_balance", "relative_error"));
+      number(result, "work_balance", "relative_error"),
+      result["diameters"] == "drawn" ? "drawn" : "as in the packing");
 }
 
 /// Mean and standard deviation over realisations (paper: error bars of Figs. 4 and 5).
@@ -66,6 +69,7 @@ void run(const Options& options) {
   const Packing packing = read_packing(options.packing);
   const Sample sample = read_sample(options.sample);
   effects::check_effects(sample, options.sample.string());
+  warn_of_open_contacts(packing.beads, sample);
   CompressOptions compress_options;
   compress_options.resume = options.resume;
   compress_options.provenance = provenance(options.common, {options.packing, options.sample});
@@ -74,9 +78,11 @@ void run(const Options& options) {
                                                      compress_options);
     return say(in_words(done.result));
   }
-  if (sample.beads.diameters == "measured")
-    throw BadUsage(
-        "--realisations: the sample uses measured diameters, so that all realisations would be the same");
+  if (diameters_used(sample, packing.beads) == "measured")
+    throw BadUsage(fmt::format(
+        "--realisations: beads.diameters = \"{}\" takes them as measured, so that all realisations "
+        "would be the same; expected \"drawn\" in {}",
+        sample.beads.diameters, options.sample.string()));
   std::vector<nlohmann::ordered_json> results;
   for (int k = 1; k <= options.realisations; ++k) {
     compress_options.provenance.seed = options.common.seed + static_cast<std::uint64_t>(k) - 1;

@@ -7,6 +7,7 @@
 #include "dem_core/linear_response.h"
 #include "effects/compress.h"
 #include "effects/list.h"
+#include "packing/measurement.h"
 #include "packing/vtp.h"
 
 namespace pendular::cli {
@@ -56,10 +57,13 @@ void run(const Options& options) {
   require_writable(options.common.out);
   const Sample sample = read_sample(options.sample);
   effects::check_effects(sample, options.sample.string());
-  const auto specimen = effects::actual_specimen(read_packing(options.packing), sample, options.common.seed);
+  const Packing packing = read_packing(options.packing);
+  warn_of_open_contacts(packing.beads, sample);
+  const auto specimen = effects::actual_specimen(packing, sample, options.common.seed);
   const Simulation simulation = effects::actual_simulation(specimen);
   const LinearResponse response = linear_response(simulation, {options.strain});
   auto json = to_json(response, simulation, options.strain);
+  json["diameters"] = specimen.sample.beads.diameters;
   json["provenance"] = to_json(provenance(options.common, {options.packing, options.sample}));
   write_text(options.common.out, json.dump(2) + "\n");
   say(in_words(response, options.strain));

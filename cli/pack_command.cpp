@@ -1,11 +1,14 @@
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/sample.h"
 #include "cli/command.h"
 #include "packing/bridges.h"
+#include "packing/check.h"
 #include "packing/generate.h"
+#include "packing/measurement.h"
 #include "packing/statistics.h"
 #include "packing/structure.h"
 #include "packing/tables.h"
@@ -13,6 +16,8 @@
 
 namespace pendular::cli {
 namespace {
+
+constexpr double kLargestClosing = 1.5;  // of the stated errors; where these hold it is about 0.8
 
 struct PackOptions {
   Common common;
@@ -59,24 +64,66 @@ void check_extent(const Packing& packing) {
         1e6 * held.diameter, 1e6 * held.height, 1e6 * said.diameter, 1e6 * said.height));
 }
 
-Packing measured_packing(const PackOptions& options, const Sample& sample) {
-  Packing packing;
-  packing.beads = read_beads(options.beads);
-  check_unit(options, packing.beads, sample);
-  packing.specimen = specimen_around(packing.beads, sample.specimen.diameter, sample.specimen.height);
+std::vector<Bead> measured_beads(const PackOptions& options, const Sample& sample) {
+  std::vector<Bead> beads = read_beads(options.beads);
+  check_unit(options, beads, sample);
+  if (diameters_used(sample, beads) == "measured") check_overlaps(beads, options.beads.string());
+  return beads;
+}
+
+/// Their gaps change by as much as the beads were moved from where they were measured.
+std::vector<Bridge> measured_bridges(const fs::path& path, const std::vector<Bead>& measured,
+                                     const std::vector<Bead>& beads) {
+  std::vector<Bridge> bridges = read_bridges(path, measured);
+  std::erase_if(bridges, [](const Bridge& bridge) { return bridge.state != BridgeState::bridge; });
+  if (bridges.empty())
+    bad_input("{}: found no row in state bridge, expected measured bridges", path.string());
+  for (auto& b : bridges) b.gap += gap(beads[b.i], beads[b.j]) - gap(measured[b.i], measured[b.j]);
+  return bridges;
+}
+
+Packing packing_for(const PackOptions& options, const Sample& sample, const std::vector<Bead>& measured) {
+  if (options.generate) {
+    Packing packing = generate_packing(sample, options.common.seed);
+    packing.bridges = candidate_bridges(packing.beads, sample.bridges.cutoff * sample.beads.diameter);
+    return packing;
+  }
+  Packing packing = packing_of(measured, sample);
   check_extent(packing);
-  flag_boundary(packing);
+  if (!options.bridges.empty()) packing.bridges = measured_bridges(options.bridges, measured, packing.beads);
   return packing;
 }
 
-std::vector<Bridge> bridges_for(const PackOptions& options, const std::vector<Bead>& beads,
-                                const Sample& sample) {
-  if (options.bridges.empty()) return candidate_bridges(beads, sample.bridges.cutoff * sample.beads.diameter);
-  std::vector<Bridge> bridges = read_bridges(options.bridges, beads);
-  std::erase_if(bridges, [](const Bridge& bridge) { return bridge.state != BridgeState::bridge; });
-  if (bridges.empty())
-    bad_input("{}: found no row in state bridge, expected measured bridges", options.bridges.string());
-  return bridges;
+/// What closing their contacts did to the beads of a table; nothing where none are closed.
+std::optional<Closing> closing_of(const Sample& sample, const std::vector<Bead>& measured,
+                                  const Packing& packing) {
+  if (!states_errors(measured) || diameters_used(sample, measured) == "drawn") return std::nullopt;
+  const Closing found = closing(measured, packing.beads);
+  if (found.rms_over_errors > kLargestClosing)
+    warn(
+        fmt::format("closing contacts moved beads by {:.1f} times their stated errors: these may be too "
+                    "small, or diameters biased",
+                    found.rms_over_errors));
+  return found;
+}
+
+nlohmann::ordered_json to_json(const Closing& closing) {
+  return {{"pairs", closing.contacts},
+          {"centre_rms_um", 1e6 * closing.centre_rms},
+          {"diameter_rms_um", 1e6 * closing.diameter_rms},
+          {"rms_over_stated_errors", closing.rms_over_errors}};
+}
+
+std::string use_in_words(const Sample& sample, const std::string& diameters,
+                         const std::optional<Closing>& closed) {
+  if (closed)
+    return fmt::format(
+        "diameters as measured: {} contacts closed by moving centres by {:.3f} um along each axis "
+        "and changing diameters by {:.3f} um (rms; {:.2f} of the stated errors)",
+        closed->contacts, 1e6 * closed->centre_rms, 1e6 * closed->diameter_rms, closed->rms_over_errors);
+  if (diameters == "measured") return "diameters as they are: no errors are stated, no contacts closed";
+  return fmt::format("diameters are drawn when compressed: {}",
+                     sample.beads.diameters == "auto" ? "no errors are stated" : "the sample asks for it");
 }
 
 void report(const PackingStatistics& s) {
@@ -99,9 +146,8 @@ void run(const PackOptions& options) {
         fmt::format("pack: --out: found {}, expected a name ending in .vtp", options.common.out.string()));
   require_writable(options.common.out);
   const Sample sample = read_sample(options.sample);
-  Packing packing =
-      options.generate ? generate_packing(sample, options.common.seed) : measured_packing(options, sample);
-  packing.bridges = bridges_for(options, packing.beads, sample);
+  const auto measured = options.generate ? std::vector<Bead>{} : measured_beads(options, sample);
+  Packing packing = packing_for(options, sample, measured);
   std::vector<fs::path> inputs = {options.sample};
   for (const auto& input : {options.beads, options.bridges})
     if (!input.empty()) inputs.push_back(input);
@@ -113,10 +159,15 @@ void run(const PackOptions& options) {
   const Structure structure = structure_of(packing);
   if (!options.generate) check_scale(packing.beads, structure, sample);
   json["structure"] = to_json(structure);
+  const std::string diameters = diameters_used(sample, packing.beads);
+  const auto closed = closing_of(sample, measured, packing);
+  json["diameters"] = diameters;
+  if (closed) json["closed_contacts"] = to_json(*closed);
   json["provenance"] = to_json(packing.provenance);
   write_packing(options.common.out, packing);
   write_text(fs::path(options.common.out).replace_extension(".json"), json.dump(2) + "\n");
   report(statistics);
+  say(use_in_words(sample, diameters, closed));
 }
 
 }  // namespace
@@ -130,7 +181,9 @@ void add_pack(CLI::App& app) {
       "state\n"
       "bridge in --bridges. The specimen has the sample's size, its axis in the middle of the beads' extent "
       "and\n"
-      "its bottom at the lowest bead. The statistics are written beside the packing as .json.");
+      "its bottom at the lowest bead. The statistics are written beside the packing as .json.\n"
+      "Where errors are stated (sigma_centre_um, sigma_diameter_um), beads that likely touch are moved and\n"
+      "resized within these until they do, unless the sample has beads.diameters = \"drawn\".");
   command->add_option("beads", options->beads,
                       "beads.csv (bead_id,x_um,y_um,z_um,diameter_um,...; axes x, y, z)");
   command->add_option("--sample", options->sample, "Sample file (.toml)")->required();

@@ -19,7 +19,9 @@
 #include "dem_core/stepper.h"
 #include "packing/bridges.h"
 #include "packing/diameters.h"
+#include "packing/measurement.h"
 #include "packing/statistics.h"
+#include "packing/touching.h"
 
 namespace pendular {
 namespace {
@@ -294,7 +296,7 @@ void warn_unless_quasi_static(const std::vector<CurveRow>& rows) {
 }  // namespace
 
 Packing realise(const Packing& packing, const Sample& sample, std::uint64_t seed) {
-  if (sample.beads.diameters == "measured") return packing;
+  if (diameters_used(sample, packing.beads) == "measured") return packing;
   Packing drawn = packing;
   std::vector<Vec3> centres;
   for (const auto& bead : packing.beads) centres.push_back(bead.centre);
@@ -333,6 +335,8 @@ CompressResult compress(const Packing& packing, const Sample& sample, const fs::
   result.result = result_json(state, sample, options.provenance);
   const auto found = avalanches(state.simulation.events, window_of(state.simulation, sample));
   result.result["avalanches"] = found.size();
+  result.result["diameters"] = diameters_used(sample, packing.beads);
+  result.result["pairs_touching_at_start"] = touching_pairs(packing.beads);
   const Coordination interior = coordination(packing.beads, packing.bridges);
   result.result["coordination"] = {{"bridges_per_interior_bead", interior.mean},
                                    {"standard_error", interior.standard_error},

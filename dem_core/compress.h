@@ -13,9 +13,9 @@
 
 namespace pendular {
 
-/// The packing that a realisation compresses. With beads.diameters = "drawn" every bead's diameter is drawn
-/// as the paper does and candidate bridges are those below the cut-off for the drawn diameters; measured
-/// bridges stay. With "measured" the packing is used as it is.
+/// The packing that a realisation compresses. Where diameters are drawn (diameters_used()), every bead's is,
+/// as the paper does, and candidate bridges are those below the cut-off for the drawn diameters; measured
+/// bridges stay. Else the packing is used as it is.
 Packing realise(const Packing& packing, const Sample& sample, std::uint64_t seed);
 
 struct CompressOptions {

@@ -7,7 +7,6 @@
 #include "dem_core/local_strain.h"
 #include "dem_core/quasi_static.h"
 #include "dem_core/shear_band.h"
-#include "packing/neighbours.h"
 
 namespace pendular {
 namespace {
@@ -19,13 +18,6 @@ std::string mode(const BreakEvent& event) {
   if (normal < 0.1 * (normal + shear)) return "shear";
   if (event.stretch < 0.0) return "compression";
   return shear < 0.1 * (normal + shear) ? "tension" : "mixed";
-}
-
-/// Counted anew: pairs that have come apart since may no longer be listed.
-std::size_t pairs_touching_at_start(const BeadStates& beads, double tolerance) {
-  std::vector<double> diameters;
-  for (double radius : beads.radius) diameters.push_back(2.0 * radius);
-  return pairs_within(beads.start, diameters, tolerance).size();
 }
 
 nlohmann::ordered_json features_json(const std::vector<CurveRow>& rows) {
@@ -151,9 +143,8 @@ void write_avalanches(const fs::path& path, const std::vector<Avalanche>& avalan
 nlohmann::ordered_json result_json(const RunState& state, const Sample& sample,
                                    const Provenance& provenance) {
   const Simulation& simulation = state.simulation;
-  const double mean_diameter = sample.beads.diameter;
   nlohmann::ordered_json json = features_json(state.rows);
-  json["shear_band"] = shear_band_json(simulation, mean_diameter);
+  json["shear_band"] = shear_band_json(simulation, sample.beads.diameter);
   json["work_balance"] = work_balance_json(simulation);
   json["quasi_static"] = quasi_static_json(state.rows);
   if (sample.compression.control == "relaxation")
@@ -161,7 +152,6 @@ nlohmann::ordered_json result_json(const RunState& state, const Sample& sample,
   json["broken_bonds"] = simulation.events.size();
   json["beads"] = simulation.beads.size();
   json["bonds"] = simulation.bonds.size();
-  json["pairs_touching_at_start"] = pairs_touching_at_start(simulation.beads, 1e-9 * mean_diameter);
   json["specimen"] = {{"height_um", kUm * simulation.initial_height},
                       {"section_mm2", 1e6 * simulation.section}};
   json["time_step_s"] = simulation.dt;

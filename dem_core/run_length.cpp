@@ -16,7 +16,7 @@ double expected_steps(const Sample& sample) {
   if (asked.control == "relaxation") return kStepsPerIncrement * asked.max_strain / asked.relax_increment;
   const double mean = sample.beads.diameter;
   const double spread =
-      sample.beads.diameters == "drawn" ? sample.beads.realisation_sd : sample.beads.diameter_sd / mean;
+      sample.beads.diameters == "measured" ? sample.beads.diameter_sd / mean : sample.beads.realisation_sd;
   // Time step over √(m/k_glass) of a mean bead.
   const double step = sample.contact.time_step_fraction * std::pow(std::max(0.5, 1.0 - 3.0 * spread), 1.5);
   const double bead_mass = sample.beads.density * M_PI / 6.0 * mean * mean * mean;

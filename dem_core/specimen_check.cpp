@@ -5,24 +5,10 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "packing/check.h"
 
 namespace pendular {
 namespace {
-
-void check_overlaps(const Packing& packing, const Simulation& simulation) {
-  for (const auto& pair : simulation.pairs) {
-    const Bead &a = packing.beads[pair.i], &b = packing.beads[pair.j];
-    const double overlap = -gap(a, b), bound = 0.05 * 0.5 * (a.diameter + b.diameter);
-    const double sigma =
-        std::sqrt(a.sigma_centre * a.sigma_centre + b.sigma_centre * b.sigma_centre +
-                  0.25 * (a.sigma_diameter * a.sigma_diameter + b.sigma_diameter * b.sigma_diameter));
-    if (overlap > std::max(bound, 5.0 * sigma))
-      bad_input(
-          "packing: beads {} and {}: found an overlap of {:.4g} um, expected at most {:.4g} um (5 % of the "
-          "diameter, or five standard errors): measurement does not explain it",
-          a.id, b.id, 1e6 * overlap, 1e6 * std::max(bound, 5.0 * sigma));
-  }
-}
 
 /// Height that the network around a bead spans.
 struct Span {
@@ -75,7 +61,7 @@ void check_joined(const Simulation& simulation, double max_strain) {
 }  // namespace
 
 void check_specimen(const Packing& packing, const Simulation& simulation, double max_strain) {
-  check_overlaps(packing, simulation);
+  check_overlaps(packing.beads, "packing");
   check_joined(simulation, max_strain);
 }
 

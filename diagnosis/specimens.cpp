@@ -9,9 +9,9 @@
 #include "effects/compress.h"
 #include "effects/list.h"
 #include "packing/bridges.h"
+#include "packing/measurement.h"
 #include "packing/statistics.h"
 #include "packing/tables.h"
-#include "packing/touching.h"
 #include "packing/vtp.h"
 
 namespace pendular::diagnosis {
@@ -48,15 +48,10 @@ void move_beads(std::vector<Bead>& beads, std::uint64_t seed) {
 
 /// The measured packing that the effects of `changed` make into the likeliest specimen where they hold.
 Packing measured_packing(const Condition& condition, int member, const Sample& changed) {
-  const Sample& sample = condition.sample;
-  Packing packing;
-  packing.beads = read_beads(condition.beads);
-  check_beads_of(condition, packing.beads);
-  if (member > 1 && member < kFirstFresh) move_beads(packing.beads, static_cast<std::uint64_t>(member));
-  packing.beads = closed_contacts(effects::actual_beads(std::move(packing.beads), changed));
-  packing.specimen = specimen_around(packing.beads, sample.specimen.diameter, sample.specimen.height);
-  flag_boundary(packing);
-  packing.bridges = candidate_bridges(packing.beads, sample.bridges.cutoff * sample.beads.diameter);
+  std::vector<Bead> beads = read_beads(condition.beads);
+  check_beads_of(condition, beads);
+  if (member > 1 && member < kFirstFresh) move_beads(beads, static_cast<std::uint64_t>(member));
+  Packing packing = packing_of(effects::actual_beads(std::move(beads), changed), condition.sample);
   packing.provenance = {program_version(),
                         fmt::format("pendular diagnose: member {}", member),
                         static_cast<std::uint64_t>(member),

@@ -5,6 +5,7 @@
 #include "dem_core/bond_bodies.h"
 #include "effects/list.h"
 #include "micromechanics/stiffness.h"
+#include "packing/measurement.h"
 
 namespace pendular::effects {
 namespace {
@@ -97,6 +98,8 @@ void prepare(Simulation& simulation, const ActualSpecimen& specimen, const std::
 ActualSpecimen actual_specimen(const Packing& measured, const Sample& believed, std::uint64_t seed) {
   const auto active = active_effects(believed, seed);
   ActualSpecimen specimen{believed, believed, measured, seed, {}, {}};
+  // Before effects on the measurement add to the errors that are stated.
+  specimen.sample.beads.diameters = diameters_used(believed, measured.beads);
   for (const auto& [effect, theta, draws] : active)
     if (effect->sample) effect->sample(specimen.sample, theta);
   for (const auto& [effect, theta, draws] : active)

@@ -1,5 +1,6 @@
 #include "packing/check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_set>
 
@@ -32,6 +33,18 @@ void check_beads(const std::vector<Bead>& beads, const std::string& where) {
       "beads beside "
       "each other (one listed twice, or a wrong unit?)",
       where, a.id, b.id, 1e6 * (a.centre - b.centre).norm(), 1e6 * a.diameter, 1e6 * b.diameter);
+}
+
+void check_overlaps(const std::vector<Bead>& beads, const std::string& where) {
+  for (const auto& pair : candidate_bridges(beads, 0.0)) {
+    const Bead &a = beads[static_cast<std::size_t>(pair.i)], &b = beads[static_cast<std::size_t>(pair.j)];
+    const double bound = std::max(0.05 * 0.5 * (a.diameter + b.diameter), 5.0 * pair.sigma_gap);
+    if (-pair.gap > bound)
+      bad_input(
+          "{}: beads {} and {}: found an overlap of {:.4g} um, expected at most {:.4g} um (5 % of the "
+          "diameter, or five standard errors): measurement does not explain it",
+          where, a.id, b.id, -1e6 * pair.gap, 1e6 * bound);
+  }
 }
 
 }  // namespace pendular

@@ -12,4 +12,8 @@ namespace pendular {
 /// diameters (a bead listed twice, or columns in different units).
 void check_beads(const std::vector<Bead>& beads, const std::string& where);
 
+/// The same for beads of which measurement does not explain that they overlap: by more than 5 % of their
+/// diameter and five standard errors of the gap.
+void check_overlaps(const std::vector<Bead>& beads, const std::string& where);
+
 }  // namespace pendular

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "packing/bridges.h"
+#include "packing/touching.h"
 
 namespace pendular {
 namespace {
@@ -159,7 +160,7 @@ Specimen specimen_enclosing(const std::vector<Bead>& beads) {
   return specimen;
 }
 
-PackingStatistics packing_statistics(const Packing& packing, double cutoff, double touching_tolerance) {
+PackingStatistics packing_statistics(const Packing& packing, double cutoff) {
   PackingStatistics result;
   result.beads = packing.beads.size();
   result.bridges = packing.bridges.size();
@@ -183,7 +184,7 @@ PackingStatistics packing_statistics(const Packing& packing, double cutoff, doub
   std::size_t near = 0, touching = 0;
   for (const auto& pair : pairs) {
     near += pair.gap < result.cutoff;
-    touching += pair.gap < std::min(result.cutoff, touching_tolerance * result.mean_diameter);
+    touching += pair.gap < result.cutoff && touches(pair, result.mean_diameter);
   }
   result.touching_share = near == 0 ? 0.0 : static_cast<double>(touching) / static_cast<double>(near);
   return result;

@@ -42,7 +42,7 @@ struct PackingStatistics {
   Coordination coordination;                      ///< of the packing's own bridges
   double volume_fraction = 0.0;                   ///< all beads over the whole cylinder
   double core_volume_fraction = 0.0;  ///< one and a half mean diameters away from walls and pistons
-  double touching_share = 0.0;        ///< of pairs below the cut-off: gap below the tolerance
+  double touching_share = 0.0;        ///< of pairs below the cut-off: those that touch (touching.h)
 
   struct CurvePoint {
     double cutoff, coordination;  ///< m; neighbours per interior bead with gaps below it
@@ -56,8 +56,8 @@ struct PackingStatistics {
   } gaps;
 };
 
-/// `cutoff` in m, `touching_tolerance` in mean diameters. The curve and the histogram reach to 0.25 D.
-PackingStatistics packing_statistics(const Packing& packing, double cutoff, double touching_tolerance = 1e-9);
+/// `cutoff` in m. The curve and the histogram reach to 0.25 D.
+PackingStatistics packing_statistics(const Packing& packing, double cutoff);
 
 /// Lengths in µm, as the keys say.
 nlohmann::ordered_json to_json(const PackingStatistics& statistics);

@@ -12,6 +12,8 @@ namespace {
 constexpr double kNear = 3.0, kFar = 6.0;  // standard errors between which pairs are taken to be apart
 constexpr int kRounds = 4, kSweeps = 400;
 constexpr double kClosed = 1e-3;          // of a standard error
+constexpr double kCountsAsClosed = 1e-2;  // of a standard error: later closures have moved the pair a little
+constexpr double kRounding = 1e-9;        // of a diameter
 constexpr std::size_t kLeastOnPlane = 5;  // beads
 
 /// Share of pairs truly apart that are measured to overlap: ∫ Φ(−u) du from zero.
@@ -148,6 +150,18 @@ std::vector<Bead> closed_contacts(std::vector<Bead> beads) {
     touching.insert(touching.end(), more.begin(), more.end());
   }
   return beads;
+}
+
+bool touches(const Bridge& pair, double diameter) {
+  return pair.gap < std::max(kRounding * diameter, kCountsAsClosed * pair.sigma_gap);
+}
+
+std::size_t touching_pairs(const std::vector<Bead>& beads) {
+  const double diameter = mean_diameter(beads);
+  const auto near =
+      candidate_bridges(beads, std::max(kRounding * diameter, kCountsAsClosed * largest_sigma(beads)));
+  return static_cast<std::size_t>(
+      std::count_if(near.begin(), near.end(), [&](const Bridge& pair) { return touches(pair, diameter); }));
 }
 
 }  // namespace pendular

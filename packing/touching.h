@@ -25,4 +25,11 @@ TouchLikelihood touch_likelihood(const std::vector<Bead>& beads);
 /// that metric). Beads without stated errors stay where they are.
 std::vector<Bead> closed_contacts(std::vector<Bead> beads);
 
+/// Whether a pair's glass touches: to rounding, or where its errors are stated to the hundredth of them to
+/// which contacts are closed. `diameter`: mean of the beads', m.
+bool touches(const Bridge& pair, double diameter);
+
+/// Pairs of beads that touch.
+std::size_t touching_pairs(const std::vector<Bead>& beads);
+
 }  // namespace pendular

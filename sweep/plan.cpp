@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "effects/list.h"
+#include "packing/measurement.h"
 
 namespace pendular::sweep {
 namespace {
@@ -38,13 +39,13 @@ std::vector<SampleValue> values_at(const std::vector<Axis>& axes, std::size_t po
 }
 
 /// Realisations of a specimen that is used as measured would all be one.
-void check_realisations(const SweepFile& file, const Sample& sample) {
-  if (file.realisations > 1 && sample.beads.diameters == "measured" && !file.packing_each)
+void check_realisations(const SweepFile& file, const Sample& sample, bool errors_stated) {
+  if (file.realisations == 1 || file.packing_each) return;
+  if (diameters_used(sample, errors_stated) == "measured")
     bad_input(
-        "{}: beads.diameters = \"measured\": found {} realisations, expected 1, because all would be the "
-        "same "
-        "(or packings = \"each\")",
-        file.sample.string(), file.realisations);
+        "{}: beads.diameters = \"{}\" takes them as measured: found {} realisations, expected 1, because "
+        "all would be the same (or \"drawn\", or packings = \"each\")",
+        file.sample.string(), sample.beads.diameters, file.realisations);
 }
 
 }  // namespace
@@ -70,7 +71,7 @@ Plan plan_of(const SweepFile& file) {
     run.point = point + 1;
     run.values = values_at(file.axes, point);
     const Sample sample = sample_at(text, file, run, plan.keys);
-    check_realisations(file, sample);
+    check_realisations(file, sample, given.errors_stated);
     for (run.realisation = 1; run.realisation <= file.realisations; ++run.realisation) {
       run.seed = file.seed + static_cast<std::uint64_t>(run.realisation) - 1;
       plan.runs.push_back(run);

@@ -6,13 +6,16 @@
 
 #include "base/error.h"
 #include "base/provenance.h"
+#include "packing/measurement.h"
 #include "packing/vtp.h"
 
 namespace pendular::sweep {
 
 PackingSource packing_file(const fs::path& path) {
   PackingSource source;
-  source.beads = read_packing(path).beads.size();
+  const auto beads = read_packing(path).beads;
+  source.beads = beads.size();
+  source.errors_stated = states_errors(beads);
   source.sha256 = sha256_of(path);
   source.file = path;
   return source;

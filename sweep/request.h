@@ -10,10 +10,11 @@ namespace pendular::sweep {
 
 /// Where the beads of a run come from: a file, known by what is in it, or a seed.
 struct PackingSource {
-  std::string sha256;      ///< of the file; empty: generated from the sample
-  std::uint64_t seed = 1;  ///< of the generated packing
-  fs::path file;           ///< where the file lies now
-  std::size_t beads = 0;   ///< in the file; 0: not known
+  std::string sha256;          ///< of the file; empty: generated from the sample
+  std::uint64_t seed = 1;      ///< of the generated packing
+  fs::path file;               ///< where the file lies now
+  std::size_t beads = 0;       ///< in the file; 0: not known
+  bool errors_stated = false;  ///< of these beads
 };
 
 /// A packing file; BadInput where it is none.

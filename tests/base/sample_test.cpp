@@ -42,6 +42,7 @@ SampleValue other_value(const std::string& name) {
       {"compression.control", "stress"},
       {"compression.unload_at", std::vector{0.01, 0.02}},
       {"compression.hold_at", std::vector{0.03}},
+      {"compression.frame_at", std::vector{0.02}},
       {"contact.bond_friction_limit", false}};
   const auto found = special.find(name);
   if (found != special.end()) return found->second;

@@ -24,6 +24,7 @@ struct BadCommand {
 class BadInput : public testing::TestWithParam<BadCommand> {};
 
 constexpr const char* kTwoBeads = "bead_id,x_um,y_um,z_um,diameter_um\n1,0,0,0,200\n2,0,0,205,200\n";
+constexpr const char* kStated = "bead_id,x_um,y_um,z_um,diameter_um,sigma_centre_um,sigma_diameter_um\n";
 
 TEST_P(BadInput, GivesOneLineAndTheRightStatus) {
   ScratchFolder folder;
@@ -42,6 +43,9 @@ TEST_P(BadInput, GivesOneLineAndTheRightStatus) {
   write_text(folder / "nan.csv", "bead_id,x_um,y_um,z_um,diameter_um\n1,0,nan,0,200\n");
   write_text(folder / "column.csv", "bead_id,x_um,y_um,diameter_um\n1,0,0,200\n");
   write_text(folder / "measured.toml", test::small_sample() + "[beads]\ndiameters = \"measured\"\n");
+  write_text(folder / "unknown.toml", "[beads]\ndiameters = \"exact\"\n");
+  write_text(folder / "stated.csv", std::string(kStated) + "1,0,0,0,200,0.1,0.1\n2,0,0,205,200,0.1,0.1\n");
+  write_text(folder / "beyond.csv", std::string(kStated) + "1,0,0,0,200,0.1,0.1\n2,0,0,180,200,0.1,0.1\n");
   write_text(folder / "deep.csv", "bead_id,x_um,y_um,z_um,diameter_um\n1,0,0,0,200\n2,0,0,180,200\n");
   write_text(folder / "detached.csv", std::string(kTwoBeads) + "3,0,0,1000,200\n4,0,0,1205,200\n");
   write_text(folder / "missing_bead.csv", "bead_i,bead_j,gap_um,state\n1,7,5,bridge\n");
@@ -85,6 +89,14 @@ INSTANTIATE_TEST_SUITE_P(
                    "tangential_stiffness_n_per_m: expected both or neither"},
         BadCommand{"StiffnessStatedAndPerBridge", "$P pack two.csv --sample two_stiffnesses.toml -o out.vtp",
                    3, "per_bridge"},
+        BadCommand{"UnknownUseOfDiameters", "$P pack two.csv --sample unknown.toml -o out.vtp", 3,
+                   "beads.diameters: found \"exact\", expected one of \"auto\", \"measured\", \"drawn\""},
+        BadCommand{"RealisationsOfAMeasuredPacking",
+                   "$P pack stated.csv --sample s.toml -o stated.vtp --quiet && $P compress stated.vtp "
+                   "--sample s.toml -o out --realisations 2",
+                   2, "all realisations would be the same"},
+        BadCommand{"OverlapBeyondErrors", "$P pack beyond.csv --sample s.toml -o out.vtp", 3,
+                   "beyond.csv: beads 1 and 2: found an overlap of 20 um"},
         BadCommand{"DeepOverlap",
                    "$P pack deep.csv --sample measured.toml -o deep.vtp --quiet && $P compress deep.vtp "
                    "--sample measured.toml -o out",

@@ -35,6 +35,13 @@ TEST(PositionError, TheMeasurementReadsTheGivenBeads) {
     EXPECT_LT((read.beads[k].centre - measured.beads[k].centre).norm(), 1e-17);
 }
 
+/// The effect makes errors known; those of an exact packing were not stated.
+TEST(PositionError, DoesNotChangeHowDiametersAreUsed) {
+  Sample sample = with("position_error", 2.0);
+  sample.beads.diameters = "auto";
+  EXPECT_EQ(actual_specimen(disordered(4, 4), sample, 1).sample.beads.diameters, "drawn");
+}
+
 TEST(PositionError, LowersTheModulusOfDrawnDiameters) {
   Sample sample = with("position_error", 4.0);
   sample.beads.diameters = "drawn";

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "packing/vtp.h"
 #include "scratch.h"
 #include "sweep_files.h"
 
@@ -73,6 +74,24 @@ TEST(Plan, AVariedKeyCountsAsIfTheSampleFileHadIt) {
   write_sweep(folder.path(), "[grid]\n\"contact.friction\" = [0.1, 0.2]\n");
   const Plan plan = plan_in(folder.path());
   EXPECT_DOUBLE_EQ(plan.requests[1].sample.contact.platen_friction, 0.2) << "platens are like beads";
+}
+
+TEST(Plan, RealisationsOfAPackingThatStatesErrorsWouldBeTheSame) {
+  ScratchFolder folder;
+  Packing packing;
+  packing.beads.resize(2);
+  packing.beads[1].id = 1, packing.beads[1].centre = Vec3(0, 0, 205e-6);
+  for (auto& bead : packing.beads) bead.diameter = 200e-6;
+  packing.specimen = {1e-3, 1e-3};
+  write_packing(folder / "p.vtp", packing);
+  write_sweep(folder.path(), "packing = \"p.vtp\"\nrealisations = 2\n");
+  EXPECT_EQ(plan_in(folder.path()).requests.size(), 2u);
+  for (auto& bead : packing.beads) bead.sigma_centre = 1e-7;
+  write_packing(folder / "p.vtp", packing);
+  EXPECT_THROW(plan_in(folder.path()), BadInput);
+  write_sweep(folder.path(),
+              "packing = \"p.vtp\"\nrealisations = 2\n[grid]\nbeads.diameters = [\"drawn\"]\n");
+  EXPECT_EQ(plan_in(folder.path()).requests.size(), 2u);
 }
 
 struct BadSweep {
