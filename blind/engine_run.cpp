@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "dem_core/bond_bodies.h"
+#include "dem_core/simulation.h"
 #include "micromechanics/stiffness.h"
 
 namespace pendular::blind {
@@ -170,12 +171,7 @@ EngineResult result_of(const json& read, std::size_t beads, std::size_t frames) 
   for (const auto& frame : read.at("frames")) result.frames.push_back(frame_of(frame, beads));
   if (result.frames.size() != frames)
     throw ComputationFailed(fmt::format("frames: found {}, expected {}", result.frames.size(), frames));
-  for (const auto& event : read.at("events")) {
-    BreakEvent broken;
-    broken.strain = number(event.at(0), "events");
-    broken.i = event.at(1).get<int>(), broken.j = event.at(2).get<int>();
-    result.events.push_back(broken);
-  }
+  for (const auto& event : read.at("events")) result.breaks.push_back(number(event.at(0), "events"));
   return result;
 }
 

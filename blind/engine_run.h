@@ -8,7 +8,6 @@
 #include "base/vec3.h"
 #include "blind/engine.h"
 #include "dem_core/curve.h"
-#include "dem_core/simulation.h"
 #include "packing/packing.h"
 
 namespace pendular::blind {
@@ -40,7 +39,7 @@ struct EngineResult {
   std::vector<double> gap, neck;          ///< of their bodies, m
   std::vector<CurveRow> rows;             ///< strain, stress, breaks and lateral strain, as read
   std::vector<EngineFrame> frames;
-  std::vector<BreakEvent> events;         ///< strain and beads
+  std::vector<double> breaks;             ///< platen strains at which bonds broke
 };
 
 /// Reads result.json of a test of so many beads, with one frame for each that was asked for.

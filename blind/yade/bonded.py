@@ -27,7 +27,7 @@ from yade import (O, Bo1_Sphere_Aabb, CohFrictMat, ForceResetter, FrictMat, Ig2_
 NO_LIMIT = 1e30
 HERTZ_OVERLAP = 1 / 200  # over D, where Hertz's force is that of the linear contact
 HERTZ_POISSON = 0.2
-STEP = 0.2  # over √(m_min / k_max)
+STEP = 0.3  # over √(m_min / k_max)
 PLATEN_REACH = 3  # diameters within which a bead may come to touch a platen
 GLASS, BOND = 1, 2  # members of a clump, and their masks
 
