@@ -10,7 +10,8 @@ Law of a bond: Law2_ScGeom6D_CohFrictPhys_CohesionMoment about mid-gap, with
 Law of the glass: Law2_ScGeom_FrictPhys_CundallStrack, k_glass and kt_glass with Coulomb's limit. Below a bond it has
 kn less, so that the two together are k_glass, and as much more friction, so that its limit stays that of k_glass.
 With glass = "hertz": Law2_ScGeom_MindlinPhys_Mindlin without adhesion, of the stiffness that makes the force at an
-overlap of D/200 the same; nothing is taken off below bonds.
+overlap of D/200 the same, and of the Poisson ratio that makes tangential over normal stiffness the same; nothing is
+taken off below bonds.
 Breaking: "griffith": tested from outside (compress.py), on the ellipse. "limits": by Yade at a force in tension and a
 force in shear, the ends of that ellipse's axes; compression does not break.
 """
@@ -26,7 +27,6 @@ from yade import (O, Bo1_Sphere_Aabb, CohFrictMat, ForceResetter, FrictMat, Ig2_
 
 NO_LIMIT = 1e30
 HERTZ_OVERLAP = 1 / 200  # over D, where Hertz's force is that of the linear contact
-HERTZ_POISSON = 0.2
 STEP = 0.3  # over √(m_min / k_max)
 PLATEN_REACH = 3  # diameters within which a bead may come to touch a platen
 GLASS, BOND = 1, 2  # members of a clump, and their masks
@@ -66,7 +66,9 @@ class Bonded:
         if self.hertz:
             overlap = HERTZ_OVERLAP * 2 * self.mean_radius
             effective = 0.75 * law["k_glass_n_per_m"] / math.sqrt(overlap * self.mean_radius / 2)
-            return FrictMat(young=2 * (1 - HERTZ_POISSON**2) * effective, poisson=HERTZ_POISSON, frictionAngle=angle)
+            ratio = law["kt_glass_n_per_m"] / law["k_glass_n_per_m"]  # 2 (1 − ν) / (2 − ν) after Mindlin
+            poisson = 2 * (1 - ratio) / (2 - ratio)
+            return FrictMat(young=2 * (1 - poisson**2) * effective, poisson=poisson, frictionAngle=angle)
         return FrictMat(young=law["k_glass_n_per_m"] / radius, frictionAngle=angle,
                         poisson=law["kt_glass_n_per_m"] / law["k_glass_n_per_m"])
 
