@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/provenance.h"
 #include "base/random.h"
+#include "blind/engine.h"
 #include "blind/instruments.h"
 #include "blind/mechanism.h"
 #include "blind/scans.h"
@@ -190,7 +191,9 @@ double expected_particle_steps(const Split& split, const CasePlan& plan) {
   const SharedPacking& packing = packing_of(split, plan);
   double steps = work(believed_a(split, packing), kUnloading);
   if (plan.short_specimen) steps += work(believed_b(split, packing), 1.1);
-  return steps;
+  constexpr double kYadeSlower = 40.0;  // per particle-step
+  const bool outside = !plan.engine.empty() && find_engine(plan.engine, plan.name).outside();
+  return outside ? kYadeSlower * steps : steps;
 }
 
 }  // namespace pendular::blind
