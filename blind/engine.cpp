@@ -23,11 +23,7 @@ const std::vector<Engine>& engines() {
        {{"contact.tangential_springs", std::string("one")}},
        {},
        {}},
-      {"coulomb_bonds",
-       "Coulomb's limit on bonds too",
-       {{"contact.bond_friction_limit", true}},
-       {},
-       {}},
+      {"coulomb_bonds", "Coulomb's limit on bonds too", {{"contact.bond_friction_limit", true}}, {}, {}},
       {"damped", "three times the damping", {{"contact.damping_fraction", 0.3}}, {}, {}},
   };
   return all;

@@ -40,8 +40,8 @@ EngineResult run_engine(const EngineRun& run, const fs::path& folder) {
   const fs::path result = folder / "result.json", log = folder / "log.txt";
   fs::remove(result);
   // One thread, no window, and an end when the script ends.
-  const Job job{{"-j1", "-n", "-x", (folder / "compress.py").string(), folder.string()}, log,
-                found_on_path(kYade)};
+  const Job job{
+      {"-j1", "-n", "-x", (folder / "compress.py").string(), folder.string()}, log, found_on_path(kYade)};
   run_jobs({job}, 1, [&](std::size_t, int status) {
     if (status != 0)
       throw ComputationFailed(

@@ -22,8 +22,7 @@ constexpr double kThinnest = 0.2;                  // over d
 
 ordered_json vectors_json(const std::vector<Bead>& beads) {
   ordered_json list = ordered_json::array();
-  for (const auto& bead : beads)
-    list.push_back({bead.centre.x(), bead.centre.y(), bead.centre.z()});
+  for (const auto& bead : beads) list.push_back({bead.centre.x(), bead.centre.y(), bead.centre.z()});
   return list;
 }
 
@@ -114,8 +113,8 @@ std::vector<std::pair<int, int>> pairs_of(const json& list, std::size_t beads, c
   for (const auto& pair : list) {
     const int i = pair.at(0).get<int>(), j = pair.at(1).get<int>();
     if (i < 0 || j <= i || j >= static_cast<int>(beads))
-      throw ComputationFailed(
-          fmt::format("{}: found beads {} and {}, expected two of {}, the first one first", what, i, j, beads));
+      throw ComputationFailed(fmt::format(
+          "{}: found beads {} and {}, expected two of {}, the first one first", what, i, j, beads));
     pairs.emplace_back(i, j);
   }
   return pairs;
@@ -137,8 +136,8 @@ EngineFrame frame_of(const json& read, std::size_t beads) {
     frame.displacement.emplace_back(xyz[0], xyz[1], xyz[2]);
   }
   if (frame.displacement.size() != beads)
-    throw ComputationFailed(fmt::format("frames.displacement_m: found {} beads, expected {}",
-                                        frame.displacement.size(), beads));
+    throw ComputationFailed(
+        fmt::format("frames.displacement_m: found {} beads, expected {}", frame.displacement.size(), beads));
   frame.bonds = pairs_of(read.at("bonds"), beads, "frames.bonds");
   frame.touching = pairs_of(read.at("touching"), beads, "frames.touching");
   return frame;

@@ -13,9 +13,8 @@ namespace {
 /// The specimen as it is, by those effects alone that are of its measurement.
 effects::ActualSpecimen without_physics(const EngineTest& test) {
   Sample sample = test.sample;
-  std::erase_if(sample.effects, [](const auto& item) {
-    return effects::find_effect(item.first, "engine").truth == nullptr;
-  });
+  std::erase_if(sample.effects,
+                [](const auto& item) { return effects::find_effect(item.first, "engine").truth == nullptr; });
   return effects::actual_specimen(test.reported, sample, test.seed);
 }
 

@@ -8,8 +8,8 @@ namespace pendular::blind {
 /// A test of a case's specimen that another program is to make. Strains are as the instruments read them.
 struct EngineTest {
   const Engine& engine;
-  const Packing& reported;    ///< as run_truth() has it
-  const Sample& sample;       ///< that is true of it
+  const Packing& reported;  ///< as run_truth() has it
+  const Sample& sample;     ///< that is true of it
   std::uint64_t seed = 1;
   double max_strain = 0.0;
   double unload_at = 0.0, scan_at = 0.0;  ///< 0: not

@@ -17,8 +17,8 @@ namespace {
 constexpr double kWeakest = 0.2;  // of an effect's range; below it nothing can be told
 constexpr double kCurveAlone = 0.15, kWithNetwork = 0.20, kWithSecond = 0.25;  // shares of the cases
 constexpr std::size_t kNoEffectEvery = 3;  // so many cases of another engine
-constexpr double kFarthestOffset = 2.0;  // of a believed value that is not deliberately wrong, in its sd
-constexpr double kWrong = 2.0;           // of one that is
+constexpr double kFarthestOffset = 2.0;    // of a believed value that is not deliberately wrong, in its sd
+constexpr double kWrong = 2.0;             // of one that is
 
 /// Random numbers one after the other.
 class Dice {

@@ -13,9 +13,8 @@ namespace pendular::blind {
 namespace {
 
 const std::vector<std::string>& stratum_names() {
-  static const std::vector<std::string> names = {"library", "none",         "outside",
-                                                 "pair",    "wrong_belief", "other_law",
-                                                 "other_engine"};
+  static const std::vector<std::string> names = {"library",      "none",      "outside",     "pair",
+                                                 "wrong_belief", "other_law", "other_engine"};
   return names;
 }
 

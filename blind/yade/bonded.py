@@ -59,7 +59,7 @@ class Bonded:
             NewtonIntegrator(damping=self.engine["local_damping"], gravity=(0, 0, 0)),
         ]
 
-    def _glass_material(self, radius, friction):
+    def glass_material(self, radius, friction):
         """Glass whose contacts have k_glass whatever the beads: the harmonic mean of Young's modulus × radius."""
         law = self.specimen.law
         angle = math.atan(friction)
@@ -78,7 +78,7 @@ class Bonded:
         self.beads, self.glass, self.carrier, masses = [], [], [], []
         for centre, diameter in zip(self.specimen.centre.tolist(), self.specimen.diameter.tolist()):
             radius = diameter / 2
-            glass = O.materials.append(self._glass_material(radius, law["friction"]))
+            glass = O.materials.append(self.glass_material(radius, law["friction"]))
             bead, (outer, inner) = O.bodies.appendClumped(
                 [utils.sphere(centre, radius, material=glass, mask=GLASS),
                  utils.sphere(centre, radius, material=carrier, mask=BOND)])
@@ -166,14 +166,15 @@ class Platens:
         half = 0.5 * reach
         turn = Quaternion()
         turn.setFromTwoVectors(Vector3(0, 0, 1), normal)
-        plates = []
+        point, plates = Vector3(self.specimen.test["axis_x_m"], 0, self.offset[side]), []
         for k, face in enumerate(faces):
             if abs(face - self.offset[side]) > reach:
                 continue
-            steel = O.materials.append(self.bonded._glass_material(self.specimen.diameter[k] / 2, law["platen_friction"]))
-            point = Vector3(self.specimen.test["axis_x_m"], 0, self.offset[side])
+            surface = O.materials.append(
+                self.bonded.glass_material(self.specimen.diameter[k] / 2, law["platen_friction"]))
             centre = point - (half + float(relief[k])) * normal
-            plate = O.bodies.append(utils.box(centre, (width, width, half), orientation=turn, fixed=True, material=steel))
+            plate = O.bodies.append(
+                utils.box(centre, (width, width, half), orientation=turn, fixed=True, material=surface))
             O.bodies[plate].bounded = False
             utils.createInteraction(plate, self.bonded.glass[k])
             plates.append(plate)

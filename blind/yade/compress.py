@@ -12,7 +12,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 
 import numpy as np
 import yade.config
-from yade import O
+from yade import O, utils
 
 from ageing import Ageing, griffith
 from bonded import Bonded, Platens
@@ -22,6 +22,7 @@ STEPS_PER_LOOK = 5  # between two looks at the platens
 STRAIN_PER_CHANGE = 1e-4  # between two looks at the bonds
 UNLOADED = 0.01  # of the force at which the platen turned
 REST = 1e-3  # unbalanced force
+STEPS_PER_SETTLING, MOST_SETTLING = 200, 200  # between two looks at it, and looks
 OVERLAP = 2e-8  # m; beads that are to touch may overlap by the table's rounding
 
 
@@ -29,7 +30,7 @@ class Test:
     def __init__(self, run):
         self.specimen = Specimen(run)
         if len(self.specimen.gap) and self.specimen.gap.min() < -OVERLAP:
-            raise SystemExit("run.json: beads overlap at rest by %g m, expected beads that touch" % -self.specimen.gap.min())
+            raise SystemExit("run.json: beads overlap by %g m, expected beads that touch" % -self.specimen.gap.min())
         self.bonded = Bonded(self.specimen, run["engine"])
         self.ageing = Ageing(self.specimen)
         self.standing = np.ones(len(self.specimen.i), dtype=bool)
@@ -49,9 +50,8 @@ class Test:
 
     def settle(self):
         """To rest, without platens, under the stress that bonds have before the test."""
-        from yade import utils
-        for _ in range(200):
-            for _ in range(200):
+        for _ in range(MOST_SETTLING):
+            for _ in range(STEPS_PER_SETTLING):
                 O.step()
             self.look_at_bonds(0.0, 0.0)
             if utils.unbalancedForce() < REST:

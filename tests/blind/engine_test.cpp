@@ -1,5 +1,5 @@
-#include <gtest/gtest.h>
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -134,8 +134,7 @@ TEST(Engine, IsToldTheSpecimenToTheLastBit) {
 TEST(Engine, IsToldHowStiffnessFollowsTheBridgesBody) {
   const Packing packing = three_beads();
   const Sample sample;
-  const json table =
-      json::parse(run_text({engines()[0], packing, sample, 7, 0.02, {}, {}}))["stiffness"];
+  const json table = json::parse(run_text({engines()[0], packing, sample, 7, 0.02, {}, {}}))["stiffness"];
   const double gap = table["gap_m"][4], neck = table["neck_m"][6];
   const BridgeBody mean = mean_bridge(sample);
   const std::vector<BridgeBody> bodies = {mean, {neck, gap, mean.diameter_i, mean.diameter_j}};
@@ -185,7 +184,8 @@ TEST(Engine, ItsProcessIsWatched) {
   EngineResult result;
   const std::string result_text = good_result().dump();
   EXPECT_EQ(run_with("for folder; do :; done; test -f $folder/run.json && test -f $4 &&\n"
-                     "echo '" + result_text + "' > $folder/result.json\n",
+                     "echo '" +
+                         result_text + "' > $folder/result.json\n",
                      &result),
             "");
   EXPECT_EQ(result.rows.size(), 2u);
@@ -214,8 +214,9 @@ TEST(Engine, YadesBondIsThatOfClosedForms) {
     GTEST_SKIP() << "yade is not installed (Debian: apt-get install yade)";
   ScratchFolder folder;
   const std::string source = PENDULAR_SOURCE_DIR;
-  const auto outcome = pendular::test::shell(folder.path(), "yade -j1 -n -x '" + source + "/tests/blind/yade/two_beads.py' '" +
-                                                      source + "/blind/yade' > found.txt");
+  const auto outcome =
+      pendular::test::shell(folder.path(), "yade -j1 -n -x '" + source + "/tests/blind/yade/two_beads.py' '" +
+                                               source + "/blind/yade' > found.txt");
   EXPECT_EQ(outcome.status, 0) << read_text(folder / "found.txt") << outcome.errors;
 }
 

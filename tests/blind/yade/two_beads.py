@@ -46,7 +46,7 @@ def pair(gap=GAP, breaking="griffith", effects=None):
 
 
 def moved(bonded, velocity=(0, 0, 0), spin=(0, 0, 0), way=WAY, both=False):
-    """The second bead at constant velocity (m per `way`) or spin (rad per `way`); force and torque on it at the end."""
+    """The second bead at constant velocity or spin (by `way`, m or rad); force and torque on it at the end."""
     rate = way / (STEPS * O.dt)
     for bead, sign in zip(bonded.beads, (-1 if both else 0, 1)):
         O.bodies[bead].state.vel = sign * rate * Vector3(*velocity)
