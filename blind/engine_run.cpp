@@ -44,9 +44,22 @@ ordered_json law_json(const Sample& sample) {
           {"youngs_modulus_pa", sample.bridges.youngs_modulus}};
 }
 
-/// Stiffness of bridges over that of the mean one, rows by gap, columns by neck.
+/// Stiffness of bridges over that of the mean one, where no effect changes their bodies.
+ordered_json flat_stiffness(const BridgeBody& mean) {
+  const ordered_json ones = {{1.0, 1.0}, {1.0, 1.0}};
+  return {{"gap_m", {mean.gap, 2.0 * mean.gap}},
+          {"neck_m", {0.5 * mean.neck_diameter, mean.neck_diameter}},
+          {"normal", ones},
+          {"tangential", ones},
+          {"bending", ones},
+          {"twisting", ones}};
+}
+
+/// Likewise, rows by gap, columns by neck; by finite elements where some effect does.
 ordered_json stiffness_json(const Sample& sample) {
   const BridgeBody mean = mean_bridge(sample);
+  if (!sample.effects.contains("bridge_gap_spread") && !sample.effects.contains("bridge_diameter_spread"))
+    return flat_stiffness(mean);
   const double longest = std::max(kLongest * sample.beads.diameter, 1.1 * mean.gap);
   const double thinnest = kThinnest * mean.neck_diameter, thickest = kThickest * sample.beads.diameter;
   ordered_json gaps = ordered_json::array(), necks = ordered_json::array();

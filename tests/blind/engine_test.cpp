@@ -133,7 +133,8 @@ TEST(Engine, IsToldTheSpecimenToTheLastBit) {
 
 TEST(Engine, IsToldHowStiffnessFollowsTheBridgesBody) {
   const Packing packing = three_beads();
-  const Sample sample;
+  Sample sample;
+  sample.effects = {{"bridge_gap_spread", 3.0}};
   const json table = json::parse(run_text({engines()[0], packing, sample, 7, 0.02, {}, {}}))["stiffness"];
   const double gap = table["gap_m"][4], neck = table["neck_m"][6];
   const BridgeBody mean = mean_bridge(sample);
