@@ -35,8 +35,8 @@ def unloading_modulus(curve):
     if not len(turn):
         return np.nan
     first = turn[0]
-    down = np.flatnonzero((np.arange(len(strain)) > first + 1) & (stress > 2 / 3 * stress[first]) & (strain < strain[first]))
-    down = down[down < first + 400]
+    below = (stress > 2 / 3 * stress[first]) & (strain < strain[first])
+    down = np.flatnonzero((np.arange(len(strain)) > first + 1) & below)
     last = np.flatnonzero(np.diff(strain[first + 1:]) > 0)
     if len(last):
         down = down[down < first + 1 + last[0]]
@@ -46,9 +46,9 @@ def unloading_modulus(curve):
 def features(curve):
     up = loading(curve)
     at = lambda strain, what: np.interp(strain, up["strain"], up[what])
-    return {"stress": at(STRAINS, "stress_pa"), "modulus": slope(up, 0.005, 0.015), "lateral": at(0.015, "lateral_strain"),
-            "unloading": unloading_modulus(curve), "breaks": at(STRAINS[-1], "broken_bonds"),
-            "peak": up["stress_pa"].max(), "to": up["strain"].max()}
+    return {"stress": at(STRAINS, "stress_pa"), "modulus": slope(up, 0.005, 0.015),
+            "lateral": at(0.015, "lateral_strain"), "unloading": unloading_modulus(curve),
+            "breaks": at(STRAINS[-1], "broken_bonds"), "peak": up["stress_pa"].max()}
 
 
 def without_rigid_motion(at, u):
@@ -71,11 +71,11 @@ def non_affine(at, u):
 
 def field_difference(a, b):
     """rms of the difference per bead, um, after rigid motion; and over the non-affine part of a's field."""
-    at, ua = (np.stack([a[k] for k in names], axis=1) for names in (("x_um", "y_um", "z_um"), ("ux_um", "uy_um", "uz_um")))
-    ub = np.stack([b[k] for k in ("ux_um", "uy_um", "uz_um")], axis=1)
+    at = np.stack([a[k] for k in ("x_um", "y_um", "z_um")], axis=1)
+    ua, ub = (np.stack([f[k] for k in ("ux_um", "uy_um", "uz_um")], axis=1) for f in (a, b))
     off = rms(without_rigid_motion(at + ua, ub - ua))
-    return off, rms(non_affine(at, ua)), off / rms(non_affine(at, ua)), float(
-        (non_affine(at, ub) * non_affine(at, ua)).sum() / np.sqrt((non_affine(at, ub)**2).sum() * (non_affine(at, ua)**2).sum()))
+    na, nb = non_affine(at, ua), non_affine(at, ub)
+    return off, rms(na), off / rms(na), (na * nb).sum() / np.sqrt((na**2).sum() * (nb**2).sum())
 
 
 def main(folder):
