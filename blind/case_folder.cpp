@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/provenance.h"
 #include "base/random.h"
+#include "blind/engine.h"
 #include "blind/instruments.h"
 #include "blind/mechanism.h"
 #include "blind/scans.h"
@@ -32,7 +33,8 @@ std::uint64_t seed_of(const SharedPacking& packing, std::uint64_t specimen) {
   return random_bits(packing.seed, specimen) >> 1;
 }
 
-ordered_json sealed_json(const Split& split, const CasePlan& plan, const ordered_json& noise) {
+ordered_json sealed_json(const Split& split, const CasePlan& plan, const std::string& engine,
+                         const ordered_json& noise) {
   ordered_json json;
   json["case"] = plan.name;
   json["split"] = {{"name", split.name}, {"seed", split.seed}, {"sha256", split.content}};
@@ -52,6 +54,7 @@ ordered_json sealed_json(const Split& split, const CasePlan& plan, const ordered
                          {"unit", mechanism.unit}};
   }
   json["law"] = plan.law;
+  if (!plan.engine.empty()) json["engine"] = {{"name", plan.engine}, {"program", engine}};
   json["packing"] = plan.packing + 1;
   const Sample believed = believed_a(split, packing_of(split, plan));
   for (const auto& [key, offset] : plan.offsets)
@@ -160,7 +163,7 @@ void make_case(const CaseFolders& folders, const Split& split, const CasePlan& p
   write_text(part / "sample.toml", sample_text(believed_a(split, packing)));
   write_text(part / "experiment.toml", experiment_toml(split, plan));
 
-  const std::string truth = sealed_json(split, plan, noise).dump(2) + "\n";
+  const std::string truth = sealed_json(split, plan, a.test.engine, noise).dump(2) + "\n";
   write_text(part / "seal.txt", fmt::format("{}  {}.json\n", sha256(truth), plan.name));
   write_text(folders.sealed(plan.name), truth);
   fs::rename(part, done);
@@ -188,7 +191,9 @@ double expected_particle_steps(const Split& split, const CasePlan& plan) {
   const SharedPacking& packing = packing_of(split, plan);
   double steps = work(believed_a(split, packing), kUnloading);
   if (plan.short_specimen) steps += work(believed_b(split, packing), 1.1);
-  return steps;
+  constexpr double kYadeSlower = 40.0;  // per particle-step
+  const bool outside = !plan.engine.empty() && find_engine(plan.engine, plan.name).outside();
+  return outside ? kYadeSlower * steps : steps;
 }
 
 }  // namespace pendular::blind

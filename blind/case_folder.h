@@ -28,7 +28,7 @@ void make_case(const CaseFolders& folders, const Split& split, const CasePlan& p
 /// The hash that is published of a case. BadInput where there is none.
 std::string published_seal(const fs::path& case_folder);
 
-/// About how many particle-steps the truth of a case takes.
+/// About how many particle-steps of this program the truth of a case takes, by its time.
 double expected_particle_steps(const Split& split, const CasePlan& plan);
 
 }  // namespace pendular::blind

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "blind/engine_run.h"
 #include "blind/processes.h"
 #include "sweep/estimate.h"
 
@@ -31,6 +32,8 @@ void make_split(const CaseFolders& folders, const Split& split, std::size_t core
                 const std::function<std::vector<std::string>(std::size_t number)>& words_of) {
   const auto plans = plan_of(split);
   const auto numbers = missing(folders, split, plans);
+  for (const std::size_t number : numbers)
+    if (!plans[number].engine.empty()) require_installed(find_engine(plans[number].engine, split.name));
   make_folder(folders.root / "work");
   std::vector<Job> jobs;
   for (const std::size_t number : numbers)

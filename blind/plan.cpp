@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "blind/engine.h"
 #include "blind/mechanism.h"
 #include "diagnosis/funicular.h"
 #include "effects/list.h"
@@ -15,8 +16,9 @@ namespace {
 
 constexpr double kWeakest = 0.2;  // of an effect's range; below it nothing can be told
 constexpr double kCurveAlone = 0.15, kWithNetwork = 0.20, kWithSecond = 0.25;  // shares of the cases
-constexpr double kFarthestOffset = 2.0;  // of a believed value that is not deliberately wrong, in its sd
-constexpr double kWrong = 2.0;           // of one that is
+constexpr std::size_t kNoEffectEvery = 3;  // so many cases of another engine
+constexpr double kFarthestOffset = 2.0;    // of a believed value that is not deliberately wrong, in its sd
+constexpr double kWrong = 2.0;             // of one that is
 
 /// Random numbers one after the other.
 class Dice {
@@ -90,7 +92,8 @@ class Truths {
         effects_(effects_of(split), dice),
         mechanisms_(mechanisms_of(), dice),
         beliefs_(beliefs_of(split), dice),
-        laws_(other_laws(), dice) {}
+        laws_(other_laws(), dice),
+        engines_(split.engines, dice) {}
 
   CasePlan draw(Stratum stratum, std::size_t number) {
     CasePlan plan;
@@ -116,6 +119,10 @@ class Truths {
       case Stratum::other_law:
         plan.law = laws_.draw();
         add_effects(plan, 1);
+        break;
+      case Stratum::other_engine:
+        plan.engine = engines_.draw();
+        add_effects(plan, number % kNoEffectEvery != 0);
         break;
     }
     return plan;
@@ -148,6 +155,7 @@ class Truths {
   void add_effects(CasePlan& plan, std::size_t count) {
     while (plan.effects.size() < count) {
       const auto* effect = effects_.draw();
+      if (!plan.engine.empty() && !has_effect(find_engine(plan.engine, "split"), effect->id)) continue;
       plan.effects.emplace(effect->id, draw_theta(*effect, dice_));
     }
   }
@@ -161,7 +169,7 @@ class Truths {
   Dice& dice_;
   Deck<const effects::Effect*> effects_;
   Deck<const Mechanism*> mechanisms_;
-  Deck<std::string> beliefs_, laws_;
+  Deck<std::string> beliefs_, laws_, engines_;
 };
 
 /// What an experimenter measured: a curve alone (15 %), with Z and lateral strain (20 %), with a second

@@ -20,6 +20,7 @@ struct CasePlan {
   double mechanism_theta = 0.0;
   std::map<std::string, double> offsets;  ///< true less believed value, in its sd, by dotted key
   std::string law = "paper";              ///< that the truth follows: see laws()
+  std::string engine;                     ///< that makes it: see engines(); empty: as the diagnosis does
   bool short_specimen = false;            ///< whether B is tested
   std::vector<std::string> kinds;         ///< of observation beside the compressions
   bool scanned = false;                   ///< A's beads were followed to a second scan

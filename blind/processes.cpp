@@ -18,29 +18,30 @@
 namespace pendular::blind {
 namespace {
 
-constexpr const char* kProgram = "/proc/self/exe";
+constexpr const char* kSelf = "/proc/self/exe";
 
 /// In the new process, where only calls safe after fork are allowed.
-[[noreturn]] void become(char* const* words, int output, pid_t parent) {
+[[noreturn]] void become(const char* program, char* const* words, int output, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(130);  // it went before it could be watched
   ::dup2(output, STDOUT_FILENO);
   ::dup2(output, STDERR_FILENO);
-  ::execv(kProgram, words);
+  ::execv(program, words);
   ::_exit(127);
 }
 
 pid_t start(const Job& job) {
   std::vector<std::string> words = job.words;
-  words.insert(words.begin(), "pendular");
+  words.insert(words.begin(), job.program.empty() ? "pendular" : job.program.string());
   std::vector<char*> pointers;
   for (auto& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   const int output = ::open(job.log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (output < 0)
     throw ComputationFailed(fmt::format("{}: cannot be written: {}", job.log.string(), std::strerror(errno)));
+  const std::string program = job.program.empty() ? kSelf : job.program.string();
   const pid_t parent = ::getpid(), child = ::fork();
-  if (child == 0) become(pointers.data(), output, parent);
+  if (child == 0) become(program.c_str(), pointers.data(), output, parent);
   const int why = errno;
   ::close(output);
   if (child < 0) throw ComputationFailed(fmt::format("no process can be started: {}", std::strerror(why)));

@@ -12,9 +12,10 @@ namespace pendular::blind {
 struct Job {
   std::vector<std::string> words;
   fs::path log;
+  fs::path program = {};  ///< empty: this one
 };
 
-/// Runs this program once for each job, `at_once` side by side, in order. ended(k, status) is told each
+/// Runs a program once for each job, `at_once` side by side, in order. ended(k, status) is told each
 /// exit status, 128 + signal where one was killed. Where the user stops the program the processes are stopped
 /// too, and Interrupted is thrown; they go where this process is killed.
 void run_jobs(const std::vector<Job>& jobs, std::size_t at_once,

@@ -6,19 +6,20 @@
 #include "base/nearest.h"
 #include "base/provenance.h"
 #include "base/toml_place.h"
+#include "blind/engine.h"
 #include "diagnosis/believed.h"
 
 namespace pendular::blind {
 namespace {
 
 const std::vector<std::string>& stratum_names() {
-  static const std::vector<std::string> names = {"library", "none",         "outside",
-                                                 "pair",    "wrong_belief", "other_law"};
+  static const std::vector<std::string> names = {"library",      "none",      "outside",     "pair",
+                                                 "wrong_belief", "other_law", "other_engine"};
   return names;
 }
 
 // Shares that leave each stratum of eighty cases some eight to thirty of them.
-constexpr std::array<double, kStrata> kDefaultShares = {0.35, 0.12, 0.20, 0.12, 0.12, 0.09};
+constexpr std::array<double, kStrata> kDefaultShares = {0.35, 0.12, 0.20, 0.12, 0.12, 0.09, 0.0};
 
 const toml::table& table_at(const TomlPlace& place) {
   if (!place.node.is_table()) bad_input("{}: found {}, expected a table", place.str(), type_name(place.node));
@@ -52,10 +53,23 @@ void read_section(const TomlPlace& section, const std::vector<std::string>& know
   }
 }
 
+std::vector<std::string> engines_at(const TomlPlace& place) {
+  const auto* array = place.node.as_array();
+  if (!array) bad_input("{}: found {}, expected a list of engines", place.str(), type_name(place.node));
+  std::vector<std::string> names;
+  for (const auto& node : *array)
+    names.push_back(find_engine(word_at({place.file, place.name, node}), place.str()).name);
+  if (names.empty()) bad_input("{}: found none, expected at least one engine", place.str());
+  return names;
+}
+
 void read_head(Split& split, fs::path& sample, const TomlPlace& section) {
-  read_section(section, {"name", "seed", "cases", "sample"}, [&](const std::string& key, const auto& place) {
+  const std::vector<std::string> known = {"name", "seed", "cases", "sample", "engines"};
+  read_section(section, known, [&](const std::string& key, const auto& place) {
     if (key == "name")
       split.name = word_at(place);
+    else if (key == "engines")
+      split.engines = engines_at(place);
     else if (key == "seed")
       split.seed = whole_at(place);
     else if (key == "cases")
@@ -158,6 +172,7 @@ Split read_split(const fs::path& path, std::optional<std::uint64_t> seed) {
   Split split;
   split.file = path;
   split.shares = kDefaultShares;
+  split.engines = engine_names();
   const std::string file = path.string(), text = read_text(path);
   fs::path sample;
   const toml::table root = parse_toml(text, file);

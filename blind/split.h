@@ -13,8 +13,8 @@
 namespace pendular::blind {
 
 /// What is withheld from a case.
-enum class Stratum { library, none, outside, pair, wrong_belief, other_law };
-inline constexpr std::size_t kStrata = 6;
+enum class Stratum { library, none, outside, pair, wrong_belief, other_law, other_engine };
+inline constexpr std::size_t kStrata = 7;
 
 std::string to_string(Stratum stratum);
 /// BadInput, opening with `where`, for another word.
@@ -39,6 +39,7 @@ struct Split {
   Sample sample;                              ///< what is believed; A's height is the packing's
   std::map<std::string, double> uncertainty;  ///< one sd of a believed value, by dotted key, in its unit
   std::array<double, kStrata> shares = {};    ///< of the cases, summing to 1
+  std::vector<std::string> engines;           ///< that take turns in the stratum other_engine
   std::vector<SharedPacking> packings;
   double max_strain = 0.09, unload_at = 0.03;         ///< of the tests; A is unloaded once
   double sigma_centre = 3e-7, sigma_diameter = 3e-7;  ///< of the measured beads, m

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "blind/engine_truth.h"
 #include "blind/mechanism.h"
 #include "diagnosis/believed.h"
 #include "effects/compress.h"
@@ -157,6 +158,9 @@ Sample true_sample(const CasePlan& plan, const Split& split, Sample believed) {
     }
   });
   for (const auto& [key, value] : laws().at(plan.law)) set_sample_key(sample, key, value, plan.name);
+  if (!plan.engine.empty())
+    for (const auto& [key, value] : find_engine(plan.engine, plan.name).settings)
+      set_sample_key(sample, key, value, plan.name);
   sample.effects = plan.effects;
   return sample;
 }
@@ -167,6 +171,15 @@ TrueTest run_truth(const CasePlan& plan, const Split& split, const Sample& belie
   test.sample = true_sample(plan, split, believed);
   test.sample.compression.frames = 0.0;
   const std::uint64_t seed = run_seed(plan, number);
+  if (!plan.engine.empty()) {
+    const Engine& engine = find_engine(plan.engine, plan.name);
+    if (engine.outside()) {
+      const double end = kBeyond * split.max_strain;
+      return engine_truth({engine, beads, test.sample, seed, end, unload ? split.unload_at : 0.0, scan_at},
+                          scratch);
+    }
+    test.engine = engine.name;
+  }
   Packing packing = beads;
   if (!plan.mechanism.empty())
     if (const Mechanism& mechanism = find_mechanism(plan.mechanism, plan.name); mechanism.packing)

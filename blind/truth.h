@@ -35,6 +35,7 @@ struct TrueTest {
   Packing packing;                 ///< that carried the load
   std::vector<BridgeBody> bodies;  ///< of its standing bridges
   std::vector<CurveRow> rows;      ///< strain and stress as read, not beyond the test's last strain
+  std::string engine;              ///< that made it, with its version; empty: as the diagnosis does
   Scan scan;                       ///< where the strain that is read is the scan's; empty: none was made
 };
 

@@ -118,6 +118,7 @@ Truth read_truth(const fs::path& sealed) {
       truth.mechanism_theta = read["mechanism"].at("theta").get<double>();
     }
     truth.law = read.at("law").get<std::string>();
+    if (read.contains("engine")) truth.law = read["engine"].at("name").get<std::string>();
     if (truth.stratum == Stratum::wrong_belief) truth.wrong_belief = farthest_belief(read);
     truth.packing = read.at("packing").get<std::size_t>();
     return truth;

@@ -19,7 +19,7 @@ struct Truth {
   std::vector<std::pair<std::string, double>> effects;  ///< of the library, with θ
   std::string mechanism;                                ///< outside of it; empty: none
   double mechanism_theta = 0.0;
-  std::string law, wrong_belief;  ///< the believed value that is off by most, in the stratum of these
+  std::string law, wrong_belief;  ///< the law or engine; the value believed farthest off, in its stratum
   std::size_t packing = 1;
 };
 

@@ -35,10 +35,42 @@ TEST(Plan, SealedSplitIsLargeEnoughAndHasEveryEffectAndMechanism) {
   EXPECT_GE(packings.size(), 4u);
   EXPECT_EQ(names.size(), plans.size());
   EXPECT_EQ(salts.size(), plans.size());
-  for (std::size_t k = 0; k < kStrata; ++k) EXPECT_GE(strata[static_cast<Stratum>(k)], 7);
+  EXPECT_FALSE(strata.contains(Stratum::other_engine));  // the last one, which no split need have
+  for (std::size_t k = 0; k + 1 < kStrata; ++k) EXPECT_GE(strata[static_cast<Stratum>(k)], 7);
   EXPECT_EQ(effects.size(), effects::all_effects().size() - 1);  // no polymer is above W*
   EXPECT_FALSE(effects.contains("funicular_bridges"));
   EXPECT_EQ(mechanisms.size(), all_mechanisms().size());
+}
+
+TEST(Plan, ASplitWithoutOtherEnginesStaysAsItWas) {
+  // Of the sealed split as it was scored, docs/blind.md.
+  const auto plans = plan_of(sealed_split());
+  EXPECT_EQ(plans[2].mechanism, "soft_contacts");
+  EXPECT_EQ(right_answer(plans[16]), "platen_friction");
+  EXPECT_EQ(right_answer(plans[27]), "bridge_bending+platen_friction");
+  EXPECT_EQ(right_answer(plans[82]), "interface_strength");
+  for (const auto& plan : plans) EXPECT_TRUE(plan.engine.empty());
+}
+
+TEST(Plan, EnginesTakeTurnsAndAThirdOfTheirCasesHasNoEffect) {
+  Split split = sealed_split();
+  split.cases = 100;
+  split.shares = {};
+  split.shares[static_cast<std::size_t>(Stratum::other_engine)] = 0.18;
+  split.shares[static_cast<std::size_t>(Stratum::none)] = 0.82;
+  split.engines = {"yade", "yade_limits", "one_spring"};
+  std::map<std::string, int> engines;
+  int without = 0;
+  for (const auto& plan : plan_of(split)) {
+    EXPECT_EQ(plan.engine.empty(), plan.stratum != Stratum::other_engine);
+    if (plan.engine.empty()) continue;
+    ++engines[plan.engine];
+    without += plan.effects.empty();
+    EXPECT_LE(plan.effects.size(), 1u);
+    EXPECT_EQ(plan.law, "paper");
+  }
+  EXPECT_EQ(engines, (std::map<std::string, int>{{"yade", 6}, {"yade_limits", 6}, {"one_spring", 6}}));
+  EXPECT_EQ(without, 6);
 }
 
 TEST(Plan, MagnitudesLieInTheUpperPartOfTheirRanges) {

@@ -60,6 +60,8 @@ TEST(Split, RefusesWhatItCannotUse) {
   EXPECT_NE(refusal("unload_at = 0.01", "unload_at = 0.03").find("unload_at"), std::string::npos);
   EXPECT_NE(refusal("\"contact.friction\"", "\"contact.fricton\"").find("\"contact.friction\""),
             std::string::npos);
+  EXPECT_NE(refusal("cases = 3", "cases = 3\nengines = [\"yadde\"]").find("\"yade\""), std::string::npos);
+  EXPECT_NE(refusal("cases = 3", "cases = 3\nengines = []").find("at least one engine"), std::string::npos);
   EXPECT_NE(refusal("height_um = 900\n", "").find("height_um is missing"), std::string::npos);
   EXPECT_NE(refusal("small_sample.toml", "none.toml").find("none.toml"), std::string::npos);
 }
