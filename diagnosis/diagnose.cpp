@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "diagnosis/experiment_places.h"
 #include "diagnosis/next_experiments.h"
 #include "diagnosis/shrinkage.h"
 #include "diagnosis/verdict.h"
@@ -109,6 +110,7 @@ Diagnosis diagnose(const Experiment& experiment, const BankPlan& plan, const fs:
   else
     diagnosis.warnings.push_back(
         "how far the gap shrinks was not measured: no fresh runs were made, as asked");
+  diagnosis.places = places_in(experiment, plan, beads_folder, diagnosis.overlays, diagnosis.warnings);
   diagnosis.next = next_experiments(experiment, diagnosis.explanations);
   diagnosis.verdict = verdict_of(diagnosis);
   return diagnosis;
