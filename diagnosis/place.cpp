@@ -11,6 +11,7 @@
 namespace pendular::diagnosis {
 namespace {
 
+constexpr double kShareOfLargest = 1.0 / 3.0;
 constexpr double kTail = 0.05;  // of the beads that stand out, beyond the range that is told
 
 /// The range of most of some values.
@@ -55,8 +56,8 @@ std::string words_of(const Place& place) {
 }  // namespace
 
 std::size_t Place::count() const {
-  return static_cast<std::size_t>(std::count_if(misfit.value.begin(), misfit.value.end(),
-                                                [&](double value) { return value > misfit.threshold; }));
+  return static_cast<std::size_t>(
+      std::count_if(misfit.value.begin(), misfit.value.end(), [&](double value) { return value > cut; }));
 }
 
 Place place_of(const ScannedMotion& scan, const Simulation& specimen,
@@ -79,6 +80,8 @@ Place place_of(const ScannedMotion& scan, const Simulation& specimen,
       simulated[k] += member[k] / static_cast<double>(scan.simulated.size());
   }
   place.misfit = place_misfit(beads);
+  place.cut = std::max(place.misfit.threshold,
+                       kShareOfLargest * *std::max_element(place.misfit.value.begin(), place.misfit.value.end()));
   place.stiffness = place_stiffness(specimen, scan.strain, bead, simulated, beads);
   place.words = words_of(place);
   return place;

@@ -27,9 +27,12 @@ struct Place {
   std::vector<double> diameter;  ///< m
   PlaceMisfit misfit;
   PlaceStiffness stiffness;
+  /// Beads with a misfit above this stand out: the threshold, or a third of the largest misfit, so that what a
+  /// strong flaw does to its surroundings does not count as its place.
+  double cut = 0.0;
   std::string words;  ///< in a sentence
 
-  bool stands_out(std::size_t bead) const { return misfit.value[bead] > misfit.threshold; }
+  bool stands_out(std::size_t bead) const { return misfit.value[bead] > cut; }
   std::size_t count() const;  ///< of the beads that stand out
 };
 

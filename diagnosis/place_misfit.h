@@ -31,7 +31,7 @@ std::vector<std::vector<Vec3>> null_differences(const MovedBeads& beads, int dra
 struct PlaceMisfit {
   std::vector<Vec3> difference;  ///< measured less simulated, m
   std::vector<double> value;     ///< of the pairs about a bead, in units of the noise; about 1: nothing amiss
-  double threshold = 0.0;        ///< that one specimen in twenty exceeds anywhere although nothing is amiss
+  double threshold = 0.0;        ///< that one specimen in twenty exceeds anywhere although nothing is amiss; 2 or more
 };
 
 /// Displacements carry a flaw's effect far; how neighbours part does not. So of each pair of neighbours the

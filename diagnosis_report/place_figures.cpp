@@ -109,6 +109,7 @@ PolyTable place_polydata(const Place& place) {
                       {"stiffness_change_sigma_percent", sigma}};
   table.number_fields = {{"strain", place.strain},
                          {"misfit_threshold", place.misfit.threshold},
+                         {"misfit_cut", place.cut},
                          {"stiffness_threshold_sigmas", place.stiffness.threshold}};
   table.text_fields = {{"words", place.words}};
   return table;

@@ -15,6 +15,7 @@ diagnosis::Place three_beads() {
   place.diameter = {2e-4, 2e-4, 2e-4};
   place.misfit = {{{1e-6, 0, 0}, {0, 0, 0}, {0, -2e-6, 0}}, {1.0, 3.0, 4.0}, 2.0};
   place.stiffness = {{0.0, -0.5, 0.1}, {0.1, 0.1, 0.2}, 3.0, 2, 1.0};
+  place.cut = 2.0;
   return place;
 }
 
