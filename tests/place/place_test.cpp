@@ -64,13 +64,13 @@ TEST(Place, ChainWithAWeakSpringIsFoundWithTheRightMagnitude) {
 TEST(Place, NothingPlantedShowsNothing) {
   const Simulation specimen = scanned_specimen();
   int alarms = 0;
-  for (std::uint64_t seed : {1, 2, 3, 4, 5}) {
+  for (std::uint64_t seed : {1, 2, 3}) {
     const Place place =
         place_of(scan_of(specimen, [](const Vec3&) { return 1.0; }, seed), specimen, ids_of(specimen));
     alarms += place.count() > 0;
     if (place.count() == 0) EXPECT_NE(place.words.find("Nowhere"), std::string::npos) << place.words;
   }
-  EXPECT_LE(alarms, 1);
+  EXPECT_EQ(alarms, 0);
 }
 
 TEST(Place, WeakLayerIsFoundAndSofter) {
