@@ -129,11 +129,9 @@ double log_determinant(const Eigen::LLT<Eigen::MatrixXd>& llt) {
   return 2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
 }
 
-/// |change| / sigma at its largest.
-double largest(const Eigen::MatrixXd& shares, const RegionFit& fit) {
-  const Eigen::VectorXd change = shares * fit.change;
-  const Eigen::VectorXd sigma = (shares * fit.covariance).cwiseProduct(shares).rowwise().sum().cwiseSqrt();
-  return change.cwiseAbs().cwiseQuotient(sigma).maxCoeff();
+/// Standard errors of the beads' changes.
+Eigen::VectorXd errors_of(const Eigen::MatrixXd& shares, const RegionFit& fit) {
+  return (shares * fit.covariance).cwiseProduct(shares).rowwise().sum().cwiseSqrt();
 }
 
 }  // namespace
@@ -215,16 +213,24 @@ PlaceStiffness place_stiffness(const Simulation& specimen, double strain, const 
     variance.segment<3>(static_cast<Eigen::Index>(3 * k)).setConstant(beads.sigma * beads.sigma + of_members[k]);
   const Eigen::MatrixXd prior = prior_of(beads, centres), shares = shares_of(beads.rest, beads, centres);
   const RegionFit fit = fit_regions(sensitivity, prior, variance, rows_of(difference));
+  // Members scatter alike from bead to bead, which single beads' variances do not say: what members themselves
+  // come to, taken for the experiment, scales the errors.
   std::vector<double> maxima;
-  for (const auto& null : null_differences(beads, 1))
-    maxima.push_back(largest(shares, fit_regions(sensitivity, prior, variance, rows_of(null))));
+  double square = 0.0;
+  for (const auto& null : null_differences(beads, 1)) {
+    const RegionFit of_null = fit_regions(sensitivity, prior, variance, rows_of(null));
+    const Eigen::VectorXd z = (shares * of_null.change).cwiseQuotient(errors_of(shares, of_null));
+    maxima.push_back(z.cwiseAbs().maxCoeff());
+    square += z.squaredNorm() / static_cast<double>(z.size());
+  }
+  const double scale = std::max(1.0, std::sqrt(square / static_cast<double>(maxima.size())));
 
   PlaceStiffness found;
   found.regions = static_cast<int>(centres.size());
   found.left = fit.left;
-  found.threshold = exceeded_by(maxima, kFalsePlaces);
+  found.threshold = exceeded_by(maxima, kFalsePlaces) / scale;
   const Eigen::VectorXd change = shares * fit.change;
-  const Eigen::VectorXd sigma = (shares * fit.covariance).cwiseProduct(shares).rowwise().sum().cwiseSqrt();
+  const Eigen::VectorXd sigma = scale * errors_of(shares, fit);
   found.change.assign(change.data(), change.data() + change.size());
   found.sigma.assign(sigma.data(), sigma.data() + sigma.size());
   return found;
