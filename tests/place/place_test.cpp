@@ -57,7 +57,7 @@ TEST(Place, ChainWithAWeakSpringIsFoundWithTheRightMagnitude) {
     if (k != kWeak) others += fit.change[static_cast<Eigen::Index>(k)] / (kSprings - 1.0);
   EXPECT_NEAR(fit.change[kWeak] - others, std::log(kWeaker), 0.1 * std::fabs(std::log(kWeaker)));
   for (std::size_t k = 0; k < kSprings; ++k)
-    if (k != kWeak) EXPECT_NEAR(fit.change[static_cast<Eigen::Index>(k)], others, 0.02);
+    EXPECT_NEAR(fit.change[static_cast<Eigen::Index>(k)] - others, k == kWeak ? std::log(kWeaker) : 0.0, 0.02);
   EXPECT_GT(std::fabs(fit.change[kWeak]), 5.0 * std::sqrt(fit.covariance(kWeak, kWeak)));
 }
 
@@ -68,7 +68,7 @@ TEST(Place, NothingPlantedShowsNothing) {
     const Place place =
         place_of(scan_of(specimen, [](const Vec3&) { return 1.0; }, seed), specimen, ids_of(specimen));
     alarms += place.count() > 0;
-    if (place.count() == 0) EXPECT_NE(place.words.find("Nowhere"), std::string::npos) << place.words;
+    EXPECT_NE(place.words.find("Nowhere"), std::string::npos) << place.words;
   }
   EXPECT_EQ(alarms, 0);
 }
@@ -77,7 +77,7 @@ TEST(Place, WeakLayerIsFoundAndSofter) {
   const Simulation specimen = scanned_specimen();
   const double middle = 0.5 * (specimen.bottom.z + specimen.top.z), half = specimen.beads.mean_diameter();
   const auto of_layer = [&](const Vec3& p) { return std::fabs(p.z() - middle) < half; };
-  const Place place = place_of(scan_of(specimen, [&](const Vec3& p) { return of_layer(p) ? 0.6 : 1.0; }, 9),
+  const Place place = place_of(scan_of(specimen, [&](const Vec3& p) { return of_layer(p) ? 0.3 : 1.0; }, 9),
                                specimen, ids_of(specimen));
   double larger = 0.0, pairs = 0.0, inside = 0.0, outside = 0.0, count = 0.0;
   for (std::size_t a = 0; a < place.ids.size(); ++a) {
@@ -91,7 +91,7 @@ TEST(Place, WeakLayerIsFoundAndSofter) {
   }
   EXPECT_GT(place.count(), 10u);
   EXPECT_GT(larger / pairs, 0.9);
-  EXPECT_LT(inside / count, std::log(0.85));
+  EXPECT_LT(inside / count, std::log(0.7));
   EXPECT_LT(inside / count, outside - 0.1);
 }
 
