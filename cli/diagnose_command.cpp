@@ -21,13 +21,14 @@ struct Options {
   RunMaking making;
   fs::path file;
   bool dry_run = false, no_fresh_runs = false;
-  int levels = 3;
+  int levels = 3, runs = diagnosis::BankOptions().runs;
   std::vector<std::string> leave_out;
 };
 
 diagnosis::BankOptions bank_options(const Options& options) {
   diagnosis::BankOptions bank;
   bank.levels = options.levels;
+  bank.runs = options.runs;
   for (const auto& id : options.leave_out) bank.leave_out.insert(effects::find_effect(id, "--leave-out").id);
   return bank;
 }
@@ -57,6 +58,7 @@ void run(const Options& options) {
   check(options.making);
   const auto experiment = diagnosis::read_experiment(options.file);
   diagnosis::require_features(experiment);
+  for (const auto& warning : experiment.warnings) warn(warning);
   if (options.dry_run) return tell_cost(options, experiment);
   const fs::path beads = options.making.store_folder(options.common) / "measured";
   const auto plan = diagnosis::plan_bank(experiment, bank_options(options), beads);
@@ -91,6 +93,11 @@ void add_diagnose(CLI::App& app) {
   command
       ->add_option("--levels", options->levels, "Magnitudes of each effect from which its response is learnt")
       ->check(CLI::Range(1, 6))
+      ->capture_default_str();
+  command
+      ->add_option("--runs", options->runs,
+                   "Most runs that are made, beside the first ones, at the explanations that lead")
+      ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   command->add_option("--leave-out", options->leave_out, "Effects that are not considered, by their names")
       ->delimiter(',');

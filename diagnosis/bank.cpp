@@ -83,6 +83,7 @@ class Planner {
   Planner(const Experiment& experiment, const BankOptions& options, const fs::path& folder)
       : experiment_(experiment), options_(options), folder_(folder) {
     plan_.conditions = conditions_of(experiment);
+    plan_.further = options.runs;
     for (const auto& condition : plan_.conditions) {
       const double beads = beads_in(condition);
       const bool scaled = condition.beads.empty() && beads > kMostBeads;
@@ -96,8 +97,8 @@ class Planner {
     members_ = measured_ ? kMeasured : kGenerated;
     const bool scanned = std::any_of(plan_.conditions.begin(), plan_.conditions.end(), ends_at_scan);
     for (int member = 1; member <= (scanned ? kMoreOfScans : 1) * members_; ++member) {
-      add({member, "", 0.0, !scaled_, seed_of(member, 0), member > members_});
-      if (scaled_) add({member, "", 0.0, true, seed_of(member, 0), member > members_});
+      add({member, "", 0.0, !scaled_, draw_seed(member, 0), member > members_});
+      if (scaled_) add({member, "", 0.0, true, draw_seed(member, 0), member > members_});
     }
     for (const auto& effect : effects::all_effects()) {
       if (options_.leave_out.contains(effect.id)) plan_.absent[effect.id] = "left out as asked";
@@ -112,39 +113,24 @@ class Planner {
       const bool dense = key == "specimen.volume_fraction";
       for (double sds : {-2.0, dense ? -1.0 : 2.0}) {
         const int member = 1 + turn++ % members_;
-        add({member, key, sds, !scaled_, seed_of(member, 0)});
+        add({member, key, sds, !scaled_, draw_seed(member, 0), false, {{key, sds}}});
       }
     }
     return std::move(plan_);
   }
 
  private:
-  /// Seeds do not follow the place of an effect in the list: runs stay those of a shorter or longer library.
-  static std::uint64_t seed_of(int member, int draw) {
-    return static_cast<std::uint64_t>(member) + 1000 * static_cast<std::uint64_t>(draw);
-  }
-
   void add_effect(const effects::Effect& effect, bool scanned) {
     const int draws = effect.draws ? kDraws : 1;
     int turn = 0;
     for (double theta : magnitudes_of(effect, options_.levels, experiment_))
       for (int draw = 0; draw < (effect.draws && scanned ? kMoreOfScans : 1) * draws; ++draw) {
         const int member = 1 + turn++ % members_;
-        add({member, effect.id, theta, !scaled_, seed_of(member, draw), draw >= draws});
+        add({member, effect.id, theta, !scaled_, draw_seed(member, draw), draw >= draws, {{effect.id, theta}}});
       }
   }
 
-  void add(const DesignPoint& point) {
-    for (std::size_t c = 0; c < plan_.conditions.size(); ++c) {
-      if (point.scans_only && !ends_at_scan(plan_.conditions[c])) continue;
-      Changes changes;
-      if (!point.id.empty()) changes[point.id] = point.theta;
-      plan_.requests.push_back(request_of(experiment_, plan_.conditions[c], point.member, point.seed, changes,
-                                          folder_, point.whole ? 1.0 : plan_.size[c]));
-      plan_.runs.push_back({plan_.points.size(), c});
-    }
-    plan_.points.push_back(point);
-  }
+  void add(const DesignPoint& point) { add_points(experiment_, {point}, folder_, plan_); }
 
   const Experiment& experiment_;
   const BankOptions& options_;
@@ -176,6 +162,23 @@ std::map<std::string, double> floating_inputs(const Experiment& experiment) {
                                      [](const Observation& o) { return o.beads.empty() && o.has("strain"); });
   if (generated && !inputs.contains(fraction)) inputs[fraction] = kFractionSd;
   return inputs;
+}
+
+std::uint64_t draw_seed(int member, int draw) {
+  return static_cast<std::uint64_t>(member) + 1000 * static_cast<std::uint64_t>(draw);
+}
+
+void add_points(const Experiment& experiment, const std::vector<DesignPoint>& points,
+                const fs::path& beads_folder, BankPlan& plan) {
+  for (const auto& point : points) {
+    for (std::size_t c = 0; c < plan.conditions.size(); ++c) {
+      if (point.scans_only && !ends_at_scan(plan.conditions[c])) continue;
+      plan.requests.push_back(request_of(experiment, plan.conditions[c], point.member, point.seed, point.changes,
+                                         beads_folder, point.whole ? 1.0 : plan.size[c]));
+      plan.runs.push_back({plan.points.size(), c});
+    }
+    plan.points.push_back(point);
+  }
 }
 
 BankPlan plan_bank(const Experiment& experiment, const BankOptions& options, const fs::path& beads_folder) {

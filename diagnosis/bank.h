@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -27,18 +28,18 @@ std::map<std::string, double> floating_inputs(const Experiment& experiment);
 /// One simulation of all conditions, or of the scans alone.
 struct DesignPoint {
   int member = 1;
-  std::string id;           ///< of the effect or believed input that is changed; empty: none
-  double theta = 0.0;       ///< magnitude, or standard deviations
+  std::string id;           ///< of the effect or believed input that is changed, or of a pair; empty: none
+  double theta = 0.0;       ///< magnitude, or standard deviations; of a pair, 1: as in its changes
   bool whole = true;        ///< specimens of the observed size; else smaller ones (BankPlan::size)
   std::uint64_t seed = 1;   ///< of what effects draw
   bool scans_only = false;  ///< only tests that end at a scan
-
-  Changes changes() const { return id.empty() ? Changes{} : Changes{{id, theta}}; }
+  Changes changes = {};
 };
 
 struct BankOptions {
   int levels = 3;                   ///< magnitudes of each effect
   std::set<std::string> leave_out;  ///< effects that are not considered
+  int runs = 96;                    ///< most that are made at the leading explanations (leading_points())
 };
 
 /// The runs from which responses to effects and believed inputs are learnt.
@@ -52,6 +53,12 @@ struct BankPlan {
   std::vector<Run> runs;  ///< one per request
   std::vector<sweep::RunRequest> requests;
   std::map<std::string, std::string> absent;  ///< effects without runs, and why
+  int further = 0;  ///< runs that may be made at the leading explanations
+
+  /// Whether responses are learnt on smaller specimens.
+  bool scaled() const {
+    return std::any_of(size.begin(), size.end(), [](double one) { return one != 1.0; });
+  }
 };
 
 /// Baselines of every member; each effect at thirds of its range (in both directions where it has two; of
@@ -62,6 +69,14 @@ struct BankPlan {
 /// shape, beside baselines of their own size. Effects that only change what instruments read need no runs.
 /// Leaving an effect out changes no other run.
 BankPlan plan_bank(const Experiment& experiment, const BankOptions& options, const fs::path& beads_folder);
+
+/// The seed of what effects draw. It does not follow the place of an effect in the list: runs stay those of a
+/// shorter or longer library.
+std::uint64_t draw_seed(int member, int draw);
+
+/// Adds the runs of further points.
+void add_points(const Experiment& experiment, const std::vector<DesignPoint>& points,
+                const fs::path& beads_folder, BankPlan& plan);
 
 /// The run of one condition with some changes, its specimen of the observed size times `size`; `seed` of what
 /// effects draw.

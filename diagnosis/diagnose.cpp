@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "diagnosis/experiment_places.h"
+#include "diagnosis/leading.h"
 #include "diagnosis/next_experiments.h"
 #include "diagnosis/shrinkage.h"
 #include "diagnosis/verdict.h"
@@ -14,27 +15,58 @@
 namespace pendular::diagnosis {
 namespace {
 
+constexpr int kRounds = 3;              // of runs at the leading explanations
 constexpr double kContradiction = 4.0;  // sigma between two measurements of one thing
 
-/// The bank's tests, by point.
-std::vector<SimulatedTests> bank_tests(const BankPlan& plan, const MakeRuns& make_runs,
-                                       Diagnosis& diagnosis) {
-  const auto outcomes = make_runs("bank", plan.requests);
-  std::vector<SimulatedTests> tests(plan.points.size(), SimulatedTests(plan.conditions.size()));
-  std::size_t baselines = 0;
-  std::string why;
-  for (std::size_t k = 0; k < outcomes.size(); ++k) {
-    const auto& [point, condition] = plan.runs[k];
-    const DesignPoint& of = plan.points[point];
-    auto& test = tests[point][condition];
-    test = read_outcome(outcomes[k], condition, purpose_of(of.changes()), diagnosis.ledger);
-    if (of.id.empty() && test) ++baselines;
-    if (of.id.empty() && !test) why = outcomes[k].message;
+/// The bank: its tests by point, made as points are added.
+class Bank {
+ public:
+  Bank(const MakeRuns& make_runs, Diagnosis& diagnosis) : make_runs_(make_runs), diagnosis_(diagnosis) {}
+
+  const std::vector<SimulatedTests>& tests() const { return tests_; }
+
+  /// Makes the runs of the plan that were not made yet.
+  void make(const std::string& name, const BankPlan& plan) {
+    const auto outcomes = make_runs_(name, std::span(plan.requests).subspan(made_));
+    tests_.resize(plan.points.size(), SimulatedTests(plan.conditions.size()));
+    std::size_t baselines = 0;
+    std::string why;
+    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+      const auto& [point, condition] = plan.runs[made_ + k];
+      const DesignPoint& of = plan.points[point];
+      auto& test = tests_[point][condition];
+      test = read_outcome(outcomes[k], condition, purpose_of(of.changes), diagnosis_.ledger);
+      if (of.id.empty() && test) ++baselines;
+      if (of.id.empty() && !test) why = outcomes[k].message;
+    }
+    if (made_ == 0 && baselines == 0 && !outcomes.empty())
+      throw ComputationFailed(
+          fmt::format("no specimen could be simulated as believed; the last one said: {}", why));
+    made_ = plan.requests.size();
   }
-  if (baselines == 0 && !outcomes.empty())
-    throw ComputationFailed(
-        fmt::format("no specimen could be simulated as believed; the last one said: {}", why));
-  return tests;
+
+ private:
+  const MakeRuns& make_runs_;
+  Diagnosis& diagnosis_;
+  std::vector<SimulatedTests> tests_;
+  std::size_t made_ = 0;
+};
+
+/// The problem as the bank shows it once nothing new leads, or nothing more may be run.
+Problem followed_problem(const Experiment& experiment, const fs::path& beads_folder, const Rules& rules,
+                         BankPlan& plan, Bank& bank) {
+  bank.make("bank", plan);
+  Problem problem = problem_of(experiment, plan, bank.tests());
+  for (int round = 0; round < kRounds; ++round) {
+    const std::size_t before = plan.requests.size();
+    add_points(experiment, leading_points(problem, rules.priors, plan), beads_folder, plan);
+    const std::size_t added = plan.requests.size() - before;
+    if (added == 0) break;
+    plan.further -= static_cast<int>(added);
+    bank.make("leading explanations", plan);
+    problem = problem_of(experiment, plan, bank.tests());
+  }
+  return problem;
 }
 
 void add_overlays(const Experiment& experiment, const BankPlan& plan,
@@ -94,15 +126,15 @@ void warn_of_input(const Experiment& experiment, Diagnosis& diagnosis) {
 
 }  // namespace
 
-Diagnosis diagnose(const Experiment& experiment, const BankPlan& plan, const fs::path& beads_folder,
+Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& beads_folder,
                    const MakeRuns& make_runs, const Rules& rules, bool fresh_runs) {
   Diagnosis diagnosis;
   diagnosis.experiment = experiment.name;
   warn_of_input(experiment, diagnosis);
   warn_of_contradictions(experiment, plan, diagnosis);
-  const auto tests = bank_tests(plan, make_runs, diagnosis);
-  add_overlays(experiment, plan, tests, diagnosis);
-  const Problem problem = problem_of(experiment, plan, tests);
+  Bank bank(make_runs, diagnosis);
+  const Problem problem = followed_problem(experiment, beads_folder, rules, plan, bank);
+  add_overlays(experiment, plan, bank.tests(), diagnosis);
   diagnosis.warnings.insert(diagnosis.warnings.end(), problem.warnings.begin(), problem.warnings.end());
   judge(problem, rules, plan, experiment, diagnosis);
   if (fresh_runs)

@@ -10,7 +10,7 @@ namespace pendular::diagnosis {
 /// added, and what to measure next. `plan` is plan_bank()'s; runs are made by `make_runs`. BadInput where the
 /// observations show nothing that can be compared; ComputationFailed where no baseline could be simulated.
 /// Without fresh runs nothing is said of how far the gap shrinks.
-Diagnosis diagnose(const Experiment& experiment, const BankPlan& plan, const fs::path& beads_folder,
+Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& beads_folder,
                    const MakeRuns& make_runs, const Rules& rules = {}, bool fresh_runs = true);
 
 }  // namespace pendular::diagnosis

@@ -1,135 +1,24 @@
 #include "diagnosis/evidence.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
+#include <optional>
+
+#include "diagnosis/reduced_space.h"
 
 namespace pendular::diagnosis {
 namespace {
 
-constexpr int kGridOfOne = 81, kGridOfTwo = 11;
+constexpr int kCellsOfOne = 81, kCellsOfTwo = 11;  // of each effect's range
+constexpr int kRefined = 2, kParts = 4;            // how often cells at the peak are cut, and into how many
 constexpr double kUnknownFactors[] = {1.5, 2.5, 4.0, 7.0};  // of the noise's standard deviation
 constexpr double kLikeKnown = 0.25;  // of unknown mechanisms: as if an effect of the library acted
 constexpr double kTogether = 0.15;   // of their geometric mean, by which two effects do not add
-constexpr double kFreedom = 30.0;    // most that the likelihood trusts a covariance with
-constexpr Eigen::Index kMostDirections = 45;
-constexpr double kLeastDirection = 0.5;  // singular value, in units of the noise
-constexpr double kLongest = 8.0;         // a response counts no more than this for the directions
-constexpr int kSpanned = 3;              // magnitudes of each sign whose responses span
-constexpr double kEverywhere = 0.3;      // share of a response's error that has no direction
-
-/// Features in units of their noise, believed inputs included, reduced to what responses span.
-class Space {
- public:
-  Space(const Gap& gap, const std::vector<Signature>& signatures)
-      : factor_(gap.covariance + gap.believed * gap.believed.transpose()),
-        freedom_(gap.freedom > 0.0 ? std::min(gap.freedom, kFreedom) : 0.0) {
-    find_directions(signatures);
-    const Eigen::VectorXd whole = whiten(gap.values);
-    values_ = directions_.transpose() * whole;
-    outside_ = outside(gap.values);
-    dimensions_ = static_cast<double>(whole.size() - values_.size());
-    learn_outside(gap.outside);
-  }
-
-  Eigen::VectorXd reduced(const Eigen::VectorXd& v) const { return directions_.transpose() * whiten(v); }
-  Eigen::MatrixXd reduced_covariance(const Eigen::MatrixXd& covariance) const {
-    const Eigen::MatrixXd half = factor_.matrixL().solve(covariance);
-    const Eigen::MatrixXd whole = factor_.matrixL().solve(half.transpose());
-    return directions_.transpose() * whole * directions_;
-  }
-  const Eigen::VectorXd& values() const { return values_; }
-  /// The square of what is outside the span.
-  double outside(const Eigen::VectorXd& v) const {
-    return std::max(0.0, whiten(v).squaredNorm() - reduced(v).squaredNorm());
-  }
-  Eigen::Index size() const { return values_.size(); }
-
-  struct Fit {
-    double log_likelihood = 0.0, misfit = 0.0, log_volume = 0.0;
-  };
-
-  /// Of what a response leaves, where the response has this covariance besides the noise.
-  Fit fit(const Eigen::VectorXd& response, const Eigen::MatrixXd& covariance) const {
-    Eigen::MatrixXd wider = covariance;
-    wider.diagonal().array() += 1.0;
-    const Eigen::LLT<Eigen::MatrixXd> factor(wider);
-    const double misfit = factor.matrixL().solve(values_ - response).squaredNorm();
-    const double log_volume = factor.matrixLLT().diagonal().array().log().sum();
-    return {density(misfit, log_volume) + log_outside(1.0), misfit, log_volume};
-  }
-
-  /// The same where the noise's standard deviation is so many times as large, outside the span, too.
-  double widened(const Fit& fit, double factor) const {
-    return density(fit.misfit / (factor * factor),
-                   fit.log_volume + static_cast<double>(size()) * std::log(factor)) +
-           log_outside(factor);
-  }
-
- private:
-  Eigen::VectorXd whiten(const Eigen::VectorXd& v) const { return factor_.matrixL().solve(v); }
-
-  void find_directions(const std::vector<Signature>& signatures) {
-    std::vector<Eigen::VectorXd> columns;
-    for (const auto& signature : signatures)
-      for (const double end : {signature.lowest, signature.highest})
-        for (int k = 1; k <= kSpanned && end != 0.0; ++k) {
-          const Eigen::VectorXd response = whiten(signature.at(end * k / kSpanned));
-          const double length = response.norm();
-          if (length > 0.0) columns.push_back(response * std::min(1.0, kLongest / length));
-        }
-    const Eigen::Index features = factor_.rows();
-    directions_ = Eigen::MatrixXd::Identity(features, features);
-    if (columns.empty() || features <= 2) return;
-    Eigen::MatrixXd all(features, static_cast<Eigen::Index>(columns.size()));
-    for (std::size_t k = 0; k < columns.size(); ++k) all.col(static_cast<Eigen::Index>(k)) = columns[k];
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(all, Eigen::ComputeThinU);
-    Eigen::Index kept = 0;
-    while (kept < std::min(kMostDirections, svd.singularValues().size()) &&
-           svd.singularValues()[kept] > kLeastDirection)
-      ++kept;
-    if (kept > 0) directions_ = svd.matrixU().leftCols(kept);
-  }
-
-  /// What known runs leave outside is a multiple of χ², of their mean and variance; without runs, χ² itself.
-  void learn_outside(const std::vector<double>& known) {
-    outside_freedom_ = dimensions_;
-    if (known.size() < 8 || dimensions_ <= 0.0) return;
-    const double n = static_cast<double>(known.size());
-    double mean = 0.0, square = 0.0;
-    for (double one : known) mean += one / n;
-    for (double one : known) square += (one - mean) * (one - mean) / (n - 1.0);
-    if (!(mean > 0.0 && square > 0.0)) return;
-    outside_scale_ = square / (2.0 * mean);
-    outside_freedom_ = 2.0 * mean * mean / square;
-  }
-
-  double log_outside(double factor) const {
-    if (dimensions_ <= 0.0) return 0.0;
-    const double half = 0.5 * outside_freedom_, scale = outside_scale_ * factor * factor,
-                 x = std::max(1e-9, outside_ / scale);
-    return (half - 1.0) * std::log(x) - 0.5 * x - half * M_LN2 - std::lgamma(half) - std::log(scale);
-  }
-
-  double density(double squared, double log_volume) const {
-    const double p = static_cast<double>(size());
-    if (freedom_ <= 0.0) return -log_volume - 0.5 * squared - 0.5 * p * std::log(2.0 * M_PI);
-    return -log_volume + std::lgamma(0.5 * (freedom_ + p)) - std::lgamma(0.5 * freedom_) -
-           0.5 * p * std::log(M_PI * freedom_) - 0.5 * (freedom_ + p) * std::log1p(squared / freedom_);
-  }
-
-  Eigen::LLT<Eigen::MatrixXd> factor_;
-  double freedom_;
-  Eigen::MatrixXd directions_;  // orthonormal columns in the whitened features
-  Eigen::VectorXd values_;
-  double outside_ = 0.0, dimensions_ = 0.0;  // of the gap; outside the span
-  double outside_scale_ = 1.0, outside_freedom_ = 1.0;
-};
+constexpr double kRunTogether = 0.07;  // likewise, where it was run what they do
+constexpr double kEverywhere = 0.3;  // share of a response's error that has no direction
+constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 double log_sum(const std::vector<double>& terms) {
   const double largest = *std::max_element(terms.begin(), terms.end());
@@ -139,57 +28,156 @@ double log_sum(const std::vector<double>& terms) {
   return largest + std::log(sum);
 }
 
-/// A signature on a grid of magnitudes: its reduced responses, their covariances, and the prior's weights.
-struct Grid {
-  std::vector<double> theta, log_prior;
-  std::vector<Eigen::VectorXd> response;
-  std::vector<Eigen::MatrixXd> covariance;
+/// Some magnitudes of an effect, for which the one in the middle stands.
+struct Cell {
+  double theta = 0.0, width = 0.0;
 };
 
-Grid grid_of(const Signature& signature, const Space& space, int points) {
-  Grid grid;
-  Signature reduced = signature;
-  for (auto& power : reduced.powers) power = space.reduced(power);
-  const Eigen::MatrixXd draws =
-      signature.draws.size() > 0 ? space.reduced_covariance(signature.draws) : Eigen::MatrixXd();
-  for (int k = 0; k < points; ++k) {
-    const double theta =
-        signature.lowest + (signature.highest - signature.lowest) * (k + 0.5) / static_cast<double>(points);
-    grid.theta.push_back(theta);
-    const bool absent = std::fabs(theta) < signature.least;
-    grid.log_prior.push_back(absent ? -std::numeric_limits<double>::infinity() : 0.0);
-    grid.response.push_back(reduced.at(theta));
-    const Eigen::VectorXd& response = grid.response.back();
-    const double everywhere =
-        kEverywhere * response.squaredNorm() / std::max<double>(1.0, static_cast<double>(response.size()));
-    Eigen::MatrixXd covariance =
-        (signature.error * signature.error * (response.array().square() + everywhere)).matrix().asDiagonal();
-    if (draws.size() > 0) covariance += draws * std::pow(theta / signature.drawn_at, 2);
-    grid.covariance.push_back(std::move(covariance));
+/// A cell of each effect of an explanation, and what it weighs.
+struct Place {
+  std::vector<Cell> cells;
+  double log_prior = 0.0;
+  ReducedSpace::Fit fit = {};
+
+  double log_weight() const { return log_prior + fit.log_likelihood; }
+  double log_density() const {
+    double density = log_weight();
+    for (const auto& cell : cells) density -= std::log(cell.width);
+    return density;
   }
-  const double total = log_sum(grid.log_prior);
-  for (double& log_prior : grid.log_prior) log_prior -= total;
-  return grid;
+};
+
+/// One or two cells, each cut into so many.
+std::vector<std::vector<Cell>> parts_of(const std::vector<Cell>& cells, int parts) {
+  std::vector<std::vector<Cell>> found = {{}};
+  for (const auto& cell : cells) {
+    std::vector<std::vector<Cell>> longer;
+    for (const auto& so_far : found)
+      for (int k = 0; k < parts; ++k) {
+        longer.push_back(so_far);
+        longer.back().push_back({cell.theta + cell.width * ((k + 0.5) / parts - 0.5), cell.width / parts});
+      }
+    found = std::move(longer);
+  }
+  return found;
 }
 
-/// Posterior of one magnitude from weights on its grid.
-Magnitude magnitude_of(const Grid& grid, const std::vector<double>& log_weight) {
-  const double total = log_sum(log_weight);
-  const double cell = grid.theta.size() > 1 ? grid.theta[1] - grid.theta[0] : 0.0;
-  Magnitude magnitude;
-  double below = 0.0;
-  const auto quantile = [&](double share, double weight, std::size_t k) {
-    return grid.theta[k] + cell * ((share - below) / weight - 0.5);
-  };
-  for (std::size_t k = 0; k < grid.theta.size(); ++k) {
-    const double weight = std::exp(log_weight[k] - total);
-    magnitude.mean += weight * grid.theta[k];
-    if (below < 0.05 && below + weight >= 0.05) magnitude.interval_90.first = quantile(0.05, weight, k);
-    if (below < 0.95 && below + weight >= 0.95) magnitude.interval_90.second = quantile(0.95, weight, k);
-    below += weight;
-  }
-  return magnitude;
+/// All magnitudes are alike a priori, those below the least one aside.
+double log_prior_of(const Signature& signature, const Cell& cell) {
+  if (std::fabs(cell.theta) < signature.least) return kNever;
+  const double absent = std::max(0.0, std::min(signature.highest, signature.least) -
+                                          std::max(signature.lowest, -signature.least));
+  return std::log(cell.width / (signature.highest - signature.lowest - absent));
 }
+
+/// How a reduced response is known: to a share of itself, and to what its draws differ by.
+Eigen::MatrixXd covariance_of(const Signature& reduced, double theta, const Eigen::VectorXd& response) {
+  const double everywhere =
+      kEverywhere * response.squaredNorm() / std::max<double>(1.0, static_cast<double>(response.size()));
+  Eigen::MatrixXd covariance =
+      (reduced.error * reduced.error * (response.array().square() + everywhere)).matrix().asDiagonal();
+  if (reduced.draws.size() > 0) covariance += reduced.draws * std::pow(theta / reduced.drawn_at, 2);
+  return covariance;
+}
+
+/// One effect or two together, at all their magnitudes: cells, cut finer about the peak, since a field may say
+/// a magnitude far better than a grid over its range has cells.
+class Explored {
+ public:
+  Explored(std::vector<const Signature*> reduced, const Together* together, const ReducedSpace& space, int cells)
+      : reduced_(std::move(reduced)), together_(together), space_(space) {
+    std::vector<Cell> whole;
+    for (const auto* one : reduced_)
+      whole.push_back({0.5 * (one->lowest + one->highest), one->highest - one->lowest});
+    add(parts_of(whole, cells));
+    for (int round = 0; round < kRefined; ++round) refine();
+  }
+
+  const std::vector<Place>& places() const { return places_; }
+
+  Hypothesis hypothesis() const {
+    Hypothesis found{"", 0.0, 0.0, {}, std::numeric_limits<double>::infinity()};
+    std::vector<double> weights;
+    for (const auto& place : places_) {
+      weights.push_back(place.log_weight());
+      found.misfit = std::min(found.misfit, place.fit.misfit);
+    }
+    found.log_evidence = log_sum(weights);
+    for (std::size_t e = 0; e < reduced_.size(); ++e) {
+      found.id += (e > 0 ? "+" : "") + reduced_[e]->id;
+      found.magnitudes.push_back(magnitude(e, found.log_evidence));
+    }
+    return found;
+  }
+
+ private:
+  void add(const std::vector<std::vector<Cell>>& all) {
+    for (const auto& cells : all) {
+      Place place{cells};
+      for (std::size_t e = 0; e < cells.size(); ++e) place.log_prior += log_prior_of(*reduced_[e], cells[e]);
+      if (place.log_prior == kNever) continue;
+      Eigen::VectorXd sum = Eigen::VectorXd::Zero(space_.size());
+      Eigen::VectorXd product = Eigen::VectorXd::Constant(space_.size(), cells.size() > 1 ? 1.0 : 0.0);
+      Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(space_.size(), space_.size());
+      for (std::size_t e = 0; e < cells.size(); ++e) {
+        const Eigen::VectorXd response = reduced_[e]->at(cells[e].theta);
+        sum += response;
+        product = product.cwiseProduct(response);
+        covariance += covariance_of(*reduced_[e], cells[e].theta, response);
+      }
+      if (together_)
+        sum += cells[0].theta / together_->theta_a * cells[1].theta / together_->theta_b * together_->beyond;
+      covariance.diagonal() += std::pow(together_ ? kRunTogether : kTogether, 2) * product.cwiseAbs();
+      place.fit = space_.fit(sum, covariance);
+      places_.push_back(std::move(place));
+    }
+  }
+
+  void refine() {
+    if (places_.empty()) return;
+    const auto best = std::max_element(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
+      return a.log_density() < b.log_density();
+    })->cells;
+    std::vector<std::vector<Cell>> finer;
+    std::erase_if(places_, [&](const Place& place) {
+      for (std::size_t e = 0; e < best.size(); ++e)
+        if (std::fabs(place.cells[e].theta - best[e].theta) > 0.75 * (place.cells[e].width + best[e].width))
+          return false;
+      const auto parts = parts_of(place.cells, kParts);
+      finer.insert(finer.end(), parts.begin(), parts.end());
+      return true;
+    });
+    add(finer);
+  }
+
+  /// Mean and interval of one effect's magnitude a posteriori: each cell's weight is spread over its width.
+  Magnitude magnitude(std::size_t effect, double log_evidence) const {
+    std::vector<std::pair<Cell, double>> cells;
+    Magnitude found;
+    for (const auto& place : places_) {
+      cells.emplace_back(place.cells[effect], std::exp(place.log_weight() - log_evidence));
+      found.mean += cells.back().second * cells.back().first.theta;
+    }
+    const auto below = [&](double theta) {
+      double sum = 0.0;
+      for (const auto& [cell, weight] : cells)
+        sum += weight * std::clamp((theta - cell.theta) / cell.width + 0.5, 0.0, 1.0);
+      return sum;
+    };
+    const auto quantile = [&](double share) {
+      double low = reduced_[effect]->lowest, high = reduced_[effect]->highest;
+      for (int step = 0; step < 40; ++step) (below(0.5 * (low + high)) < share ? low : high) = 0.5 * (low + high);
+      return 0.5 * (low + high);
+    };
+    found.interval_90 = {quantile(0.05), quantile(0.95)};
+    return found;
+  }
+
+  std::vector<const Signature*> reduced_;
+  const Together* together_;  // of two, if they were run; reduced
+  const ReducedSpace& space_;
+  std::vector<Place> places_;
+};
 
 /// An explanation, and what it would come to beside something unknown.
 struct Weighed {
@@ -198,36 +186,24 @@ struct Weighed {
 };
 
 /// Mean over the widths of the noise.
-double beside_unknown(const Space& space, const Space::Fit& fit) {
+double beside_unknown(const ReducedSpace& space, const ReducedSpace::Fit& fit) {
   std::vector<double> terms;
   for (double factor : kUnknownFactors) terms.push_back(space.widened(fit, factor));
   return log_sum(terms) - std::log(static_cast<double>(std::size(kUnknownFactors)));
 }
 
-Weighed none(const Space& space) {
+Weighed none(const ReducedSpace& space) {
   const auto fit =
       space.fit(Eigen::VectorXd::Zero(space.size()), Eigen::MatrixXd::Zero(space.size(), space.size()));
   return {{"none", fit.log_likelihood, 0.0, {}, fit.misfit}, beside_unknown(space, fit)};
 }
 
-Weighed single(const Signature& signature, const Space& space) {
-  const Grid grid = grid_of(signature, space, kGridOfOne);
-  Weighed found{{signature.id, 0.0, 0.0, {}, std::numeric_limits<double>::infinity()}};
-  std::vector<double> weight, beside;
-  for (std::size_t k = 0; k < grid.theta.size(); ++k) {
-    if (!std::isfinite(grid.log_prior[k])) {
-      weight.push_back(grid.log_prior[k]);
-      continue;
-    }
-    const auto fit = space.fit(grid.response[k], grid.covariance[k]);
-    found.hypothesis.misfit = std::min(found.hypothesis.misfit, fit.misfit);
-    weight.push_back(grid.log_prior[k] + fit.log_likelihood);
-    beside.push_back(grid.log_prior[k] + beside_unknown(space, fit));
-  }
-  found.hypothesis.log_evidence = log_sum(weight);
-  found.hypothesis.magnitudes = {magnitude_of(grid, weight)};
-  found.beside_unknown = log_sum(beside);
-  return found;
+Weighed single(const Signature& reduced, const ReducedSpace& space) {
+  const Explored explored({&reduced}, nullptr, space, kCellsOfOne);
+  std::vector<double> beside;
+  for (const auto& place : explored.places())
+    beside.push_back(place.log_prior + beside_unknown(space, place.fit));
+  return {explored.hypothesis(), log_sum(beside)};
 }
 
 /// Something beside what is known, or, one time in four, something that does what a known effect would.
@@ -246,37 +222,6 @@ Hypothesis unknown(const std::vector<Weighed>& known) {
           known.front().hypothesis.misfit};
 }
 
-Hypothesis pair(const std::string& id, const Grid& a, const Grid& b, const Space& space) {
-  Hypothesis found{id, 0.0, 0.0, {}, std::numeric_limits<double>::infinity()};
-  std::vector<std::vector<double>> of_a(a.theta.size()), of_b(b.theta.size());
-  std::vector<double> all;
-  for (std::size_t k = 0; k < a.theta.size(); ++k) {
-    for (std::size_t l = 0; l < b.theta.size(); ++l) {
-      const double log_prior = a.log_prior[k] + b.log_prior[l];
-      double weight = log_prior;
-      if (std::isfinite(log_prior)) {
-        const Eigen::VectorXd &one = a.response[k], &other = b.response[l];
-        Eigen::MatrixXd covariance = a.covariance[k] + b.covariance[l];
-        covariance.diagonal() += kTogether * kTogether * one.cwiseProduct(other).cwiseAbs();
-        const auto fit = space.fit(one + other, covariance);
-        found.misfit = std::min(found.misfit, fit.misfit);
-        weight += fit.log_likelihood;
-      }
-      all.push_back(weight);
-      of_a[k].push_back(weight);
-      of_b[l].push_back(weight);
-    }
-  }
-  found.log_evidence = log_sum(all);
-  const auto marginal = [](const std::vector<std::vector<double>>& terms) {
-    std::vector<double> sums;
-    for (const auto& of_one : terms) sums.push_back(log_sum(of_one));
-    return sums;
-  };
-  found.magnitudes = {magnitude_of(a, marginal(of_a)), magnitude_of(b, marginal(of_b))};
-  return found;
-}
-
 /// Evidences times priors, made to sum to one; most probable first.
 void make_probabilities(std::vector<Hypothesis>& hypotheses,
                         const std::function<double(const Hypothesis&)>& prior) {
@@ -289,34 +234,37 @@ void make_probabilities(std::vector<Hypothesis>& hypotheses,
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });
 }
 
+/// What two effects do together, reduced, in their order; none where they were not run.
+std::optional<Together> together_of(const std::vector<Together>& all, const Signature& a, const Signature& b,
+                                    const ReducedSpace& space) {
+  for (Together one : all) {
+    if (one.a == b.id && one.b == a.id) std::swap(one.a, one.b), std::swap(one.theta_a, one.theta_b);
+    if (one.a != a.id || one.b != b.id) continue;
+    one.beyond = space.reduced(one.beyond);
+    return one;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-std::vector<double> outside_of(const Gap& gap, const std::vector<Signature>& signatures,
-                               const std::vector<Eigen::VectorXd>& values) {
-  const Space space(gap, signatures);
-  std::vector<double> squares;
-  for (const auto& one : values) squares.push_back(space.outside(one));
-  return squares;
-}
-
-Eigen::Index span_of(const Gap& gap, const std::vector<Signature>& signatures) {
-  return Space(gap, signatures).size();
-}
-
 std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& signatures,
-                              const Priors& priors) {
-  const Space space(gap, signatures);
+                              const std::vector<Together>& together, const Priors& priors, Pairs which) {
+  const ReducedSpace space(gap, signatures);
   std::vector<Weighed> known = {none(space)};
-  std::vector<Grid> grids;
+  std::vector<Signature> reduced;
   for (const auto& signature : signatures) {
-    known.push_back(single(signature, space));
-    grids.push_back(grid_of(signature, space, kGridOfTwo));
+    reduced.push_back(space.reduced(signature));
+    known.push_back(single(reduced.back(), space));
   }
   std::vector<Hypothesis> all = {unknown(known)};
   for (const auto& one : known) all.push_back(one.hypothesis);
-  for (std::size_t a = 0; a < signatures.size(); ++a)
-    for (std::size_t b = a + 1; b < signatures.size(); ++b)
-      all.push_back(pair(signatures[a].id + "+" + signatures[b].id, grids[a], grids[b], space));
+  for (std::size_t a = 0; a < reduced.size(); ++a)
+    for (std::size_t b = a + 1; b < reduced.size(); ++b) {
+      const auto run = together_of(together, reduced[a], reduced[b], space);
+      if (run || which == Pairs::all)
+        all.push_back(Explored({&reduced[a], &reduced[b]}, run ? &*run : nullptr, space, kCellsOfTwo).hypothesis());
+    }
   const double effects = static_cast<double>(signatures.size());
   const double pairs = effects > 1.0 ? priors.pairs : 0.0;
   make_probabilities(all, [&](const Hypothesis& h) {
@@ -329,20 +277,21 @@ std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& sign
 }
 
 Eigen::MatrixXd isolability(const Gap& gap, const std::vector<Signature>& signatures) {
-  const Space space(gap, signatures);
+  const ReducedSpace space(gap, signatures);
   const auto size = static_cast<Eigen::Index>(signatures.size());
   Eigen::MatrixXd distance = Eigen::MatrixXd::Zero(size, size + 1);
-  std::vector<Grid> grids;
-  for (const auto& signature : signatures) grids.push_back(grid_of(signature, space, kGridOfOne));
+  std::vector<Signature> reduced;
+  for (const auto& signature : signatures) reduced.push_back(space.reduced(signature));
   for (Eigen::Index a = 0; a < size; ++a) {
     const auto& signature = signatures[static_cast<std::size_t>(a)];
-    const Eigen::VectorXd here = space.reduced(signature.at(signature.scale));
+    const Eigen::VectorXd here = reduced[static_cast<std::size_t>(a)].at(signature.scale);
     distance(a, size) = here.squaredNorm();
     for (Eigen::Index b = 0; b < size; ++b) {
       if (a == b) continue;
       distance(a, b) = distance(a, size);
-      for (const auto& there : grids[static_cast<std::size_t>(b)].response)
-        distance(a, b) = std::min(distance(a, b), (here - there).squaredNorm());
+      const Signature& other = reduced[static_cast<std::size_t>(b)];
+      for (const auto& cells : parts_of({{0.5 * (other.lowest + other.highest), other.highest - other.lowest}}, kCellsOfOne))
+        distance(a, b) = std::min(distance(a, b), (here - other.at(cells.front().theta)).squaredNorm());
     }
   }
   return distance;

@@ -158,7 +158,7 @@ void drop_empty_sigmas(Experiment& experiment, Observation& observation) {
       continue;
     }
     experiment.warnings.push_back(observation.name + ": " + name +
-                                  " holds zeros; it counts as not given, and the scatter is used instead");
+                                  " holds zeros; it counts as not given");
     it = observation.columns.erase(it);
   }
 }

@@ -81,7 +81,7 @@ std::optional<FieldReadings> field_readings(const Experiment& experiment, const 
   bool baseline = false;
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
     const auto columns =
-        simulated_columns(experiment, plan.conditions, index, tests[k], plan.points[k].changes());
+        simulated_columns(experiment, plan.conditions, index, tests[k], plan.points[k].changes);
     fields.emplace_back(columns ? std::optional(Eigen::VectorXd(um * observation.kind->field(observation, *columns)))
                                 : std::nullopt);
     baseline = baseline || (columns && plan.points[k].id.empty());

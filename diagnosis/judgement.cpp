@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/random.h"
+#include "diagnosis/reduced_space.h"
 #include "effects/list.h"
 
 namespace pendular::diagnosis {
@@ -241,7 +242,8 @@ Changes fitted_changes(const Problem& problem, const std::vector<std::string>& i
   std::string name = ids.front();
   for (std::size_t k = 1; k < ids.size(); ++k) name += "+" + ids[k];
   Changes changes;
-  for (const auto& h : weigh(part_of(problem.readings.gap, features), part_of(signatures, features))) {
+  for (const auto& h : weigh(part_of(problem.readings.gap, features), part_of(signatures, features),
+                             part_of(problem.readings.together, features))) {
     if (h.id != name) continue;
     for (std::size_t k = 0; k < ids.size(); ++k) changes[ids[k]] = h.magnitudes[k].mean;
   }
@@ -259,9 +261,9 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   diagnosis.gap = gap_table(landmarks.observed.features, simulated, landmarks.gap);
   diagnosis.noise = landmarks.noise;
   set_signatures(problem, diagnosis);
-  const auto hypotheses = weigh(readings.gap, readings.signatures, rules.priors);
+  const auto hypotheses = weigh(readings.gap, readings.signatures, readings.together, rules.priors, Pairs::run);
   set_explanations(problem, hypotheses, rules, plan, diagnosis);
-  const Eigen::Index directions = span_of(readings.gap, readings.signatures);
+  const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();
   diagnosis.nearest_signature = nearest_signature(hypotheses, directions);
   const Hypothesis& best = hypotheses.front();
   diagnosis.goodness = goodness_of(best.misfit, directions, readings.gap.freedom);

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "diagnosis/field_readings.h"
 #include "diagnosis/model_error.h"
+#include "diagnosis/reduced_space.h"
 #include "effects/list.h"
 
 namespace pendular::diagnosis {
@@ -48,6 +49,14 @@ void read_otherwise(SimulatedTest& test, const effects::Effect& effect, double t
   }
 }
 
+/// Whether what is changed differs from draw to draw. What pairs leave is no scatter of the members either.
+bool draws_in(const Changes& changes) {
+  const auto& all = effects::all_effects();
+  return changes.size() > 1 || std::any_of(all.begin(), all.end(), [&](const auto& effect) {
+           return effect.draws && changes.contains(effect.id);
+         });
+}
+
 /// Builds a comparison from the runs.
 class Learner {
  public:
@@ -55,14 +64,14 @@ class Learner {
           const std::vector<SimulatedTests>& tests, std::vector<std::string>& warnings)
       : experiment_(experiment), plan_(plan), tests_(tests), warnings_(warnings) {
     found_.observed = observed_features(level, experiment);
-    scaled_ = std::any_of(plan.size.begin(), plan.size.end(), [](double size) { return size != 1.0; });
+    scaled_ = plan.scaled();
   }
 
   Comparison learn() {
     std::vector<Eigen::VectorXd> values;
     for (std::size_t k = 0; k < plan_.points.size(); ++k)
       values.push_back(simulated_features(experiment_, plan_.conditions, found_.observed, tests_[k],
-                                          plan_.points[k].changes()));
+                                          plan_.points[k].changes));
     by_noise_ = Eigen::VectorXd::Zero(size());
     if (found_.observed.level == Level::readings) add_fields(values);
     sort_runs(values);
@@ -105,10 +114,7 @@ class Learner {
         baseline_points_.push_back(k);
       }
       if (point.whole == scaled_) continue;
-      const auto& all = effects::all_effects();
-      const auto effect = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.id == point.id; });
-      design_.push_back({point.member, point.id, point.theta, std::move(values[k]),
-                         effect != all.end() && effect->draws});
+      design_.push_back({point.member, point.id, point.theta, std::move(values[k]), draws_in(point.changes)});
       scans_only_.push_back(point.scans_only);
     }
   }
@@ -148,6 +154,7 @@ class Learner {
     found_.simulated = mean_of(baselines_, size());
     found_.gap.values = found_.observed.values() - found_.simulated;
     set_signatures(responses);
+    set_together(responses);
     set_believed(responses);
     set_covariance(responses);
     if (found_.observed.level == Level::readings) set_outside(responses);
@@ -164,6 +171,23 @@ class Learner {
       signature.scale = kScale * largest, signature.least = kLeast * largest;
       signature.error = effect.beads ? kErrorOfBeads : kError;
       found_.signatures.push_back(std::move(signature));
+    }
+  }
+
+  /// Of the pairs that were run: what they do beyond the sum of their responses.
+  void set_together(const Responses& responses) {
+    for (const auto& point : plan_.points) {
+      const Signature* both = responses.find(point.id);
+      const bool known = std::any_of(found_.together.begin(), found_.together.end(),
+                                     [&](const Together& t) { return t.a + "+" + t.b == point.id; });
+      if (point.changes.size() != 2 || !both || known) continue;
+      Together pair{point.changes.begin()->first, point.changes.rbegin()->first, point.changes.begin()->second,
+                    point.changes.rbegin()->second, both->at(1.0)};
+      for (const auto& signature : found_.signatures) {
+        if (signature.id == pair.a) pair.beyond -= signature.at(pair.theta_a);
+        if (signature.id == pair.b) pair.beyond -= signature.at(pair.theta_b);
+      }
+      found_.together.push_back(std::move(pair));
     }
   }
 
@@ -278,6 +302,13 @@ std::vector<Signature> part_of(const std::vector<Signature>& signatures,
     for (auto& power : part.powers) power = Eigen::VectorXd(power(rows));
     if (part.draws.size() > 0) part.draws = Eigen::MatrixXd(part.draws(rows, rows));
   }
+  return parts;
+}
+
+std::vector<Together> part_of(const std::vector<Together>& together, const std::vector<std::size_t>& features) {
+  const std::vector<Eigen::Index> rows(features.begin(), features.end());
+  std::vector<Together> parts = together;
+  for (auto& part : parts) part.beyond = Eigen::VectorXd(part.beyond(rows));
   return parts;
 }
 

@@ -17,6 +17,7 @@ struct Comparison {
   Gap gap;
   std::vector<std::string> inputs;    ///< what the columns of gap.believed are responses to
   std::vector<Signature> signatures;  ///< of the effects
+  std::vector<Together> together;     ///< of those that were run together
   std::vector<NoiseBudget> noise;
 };
 
@@ -41,6 +42,7 @@ Problem problem_of(const Experiment& experiment, const BankPlan& plan,
 Gap part_of(const Gap& gap, const std::vector<std::size_t>& features);
 std::vector<Signature> part_of(const std::vector<Signature>& signatures,
                                const std::vector<std::size_t>& features);
+std::vector<Together> part_of(const std::vector<Together>& together, const std::vector<std::size_t>& features);
 
 /// The features of one of these observations.
 std::vector<std::size_t> features_from(const Comparison& comparison,

@@ -13,6 +13,7 @@ constexpr double kRounding = 1e-12;  // what remains of the spread of equal numb
 void check(const Sample& believed, Observation& observation, std::vector<std::string>&) {
   const double diameter = kUm * believed.beads.diameter;
   check_length(observation, "d_um", 0.01 * diameter, 0.99 * diameter);
+  check_sigma(observation, "sigma_um", diameter);
 }
 
 /// Numbers with this mean and standard deviation, as many as asked for: what a sample of them comes to.

@@ -1,3 +1,4 @@
+#include "base/error.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
 
@@ -6,10 +7,16 @@ namespace {
 
 constexpr double kUm = 1e6;
 constexpr double kError = 0.3;  // of the simulation, um
+constexpr double kNoGap = 1e-4;  // over the beads' diameter: none is resolved
 
 void check(const Sample& believed, Observation& observation, std::vector<std::string>&) {
   const double diameter = kUm * believed.beads.diameter;
   check_length(observation, "gap_um", -0.1 * diameter, 0.5 * diameter);
+  check_sigma(observation, "sigma_um", diameter);
+  const double widest = largest_of(observation.column("gap_um"));
+  if (widest > 0.0 && widest < kNoGap * diameter)
+    bad_input("{}: gap_um: found none wider than {:.3g} um, expected gaps between beads of {:.3g} um (is it in {}?)",
+              observation.file.string(), widest, diameter, widest > 1e-3 * kNoGap * diameter ? "mm" : "m");
 }
 
 Columns simulate(const Observation&, const Simulated& simulated) {

@@ -124,13 +124,17 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
       bad_input("{}: {}: found {:.4g}, expected positive values", file, name,
                 *std::min_element(column.begin(), column.end()));
   const auto &d = observation.column("d_um"), &diameter = observation.column("D_um");
+  // Micropipette tests use larger beads than the specimen's; a millimetre is off by far more.
+  const double beads = kUm * believed.beads.diameter;
+  check_length(observation, "D_um", 0.05 * beads, 20.0 * beads);
+  check_length(observation, "d_um", 0.01 * median(diameter), median(diameter));
   for (std::size_t k = 0; k < d.size(); ++k)
     if (d[k] >= diameter[k])
       bad_input("{}: found a bridge of {:.4g} um on beads of {:.4g} um, expected it to be thinner", file, d[k],
                 diameter[k]);
-  // Micropipette tests use larger beads than the specimen's; a millimetre is off by far more.
-  const double beads = kUm * believed.beads.diameter;
-  check_length(observation, "D_um", 0.05 * beads, 20.0 * beads);
+  for (const char* stiffness : {"kn", "kt"})
+    if (const std::string name = stiffness; observation.has(name + "_n_per_m"))
+      check_sigma(observation, name + "_sigma_n_per_m", largest_of(observation.column(name + "_n_per_m")));
   check_unit(believed, observation);
 }
 

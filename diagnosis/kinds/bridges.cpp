@@ -3,6 +3,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "base/random.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
@@ -15,6 +16,7 @@ namespace {
 constexpr double kUm = 1e6;
 constexpr double kSteep = 0.7, kFlat = 0.35;  // cosine of a pair's direction to the axis
 constexpr std::size_t kLeastPairs = 20, kLeastNecks = 10;
+constexpr double kFarPair = 0.3;  // gap over bead diameter, of the median pair
 constexpr double kShareError = 0.005, kNeckError = 0.005;  // of the simulation
 
 /// The network as columns: pairs, where they are, and whether a bridge joins them (NaN: undetermined).
@@ -59,11 +61,16 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
   if (std::none_of(joined.begin(), joined.end(), [](double one) { return one == 0.0; }))
     warnings.push_back(observation.name +
                        ": every pair is said to have a bridge; pairs without one tell as much and should be listed");
+  const double diameter = kUm * believed.beads.diameter, separation = median(observation.column("separation_um"));
+  if (std::fabs(separation) > kFarPair * diameter)
+    bad_input("{}: found pairs of beads with a gap of {:.3g} um (median) in {}, expected neighbours (another specimen?)",
+              observation.file.string(), separation, observation.beads.string());
+  check_sigma(observation, "sigma_gap_um", diameter);
+  check_sigma(observation, "sigma_bridge_diameter_um", diameter);
   if (observation.has("bridge_diameter_um")) {
     std::vector<double> necks;
     for (double d : observation.column("bridge_diameter_um"))
       if (d > 0.0) necks.push_back(d);
-    const double diameter = kUm * believed.beads.diameter;
     Observation of_necks = observation;
     of_necks.columns = {{"bridge_diameter_um", necks}};
     if (!necks.empty()) check_length(of_necks, "bridge_diameter_um", 0.01 * diameter, 0.99 * diameter);
@@ -82,7 +89,8 @@ Columns simulate(const Observation& observation, const Simulated& simulated) {
   Columns columns = observation.columns;
   const auto &i = columns.at("bead_i"), &j = columns.at("bead_j");
   for (std::size_t k = 0; k < i.size(); ++k) {
-    const std::pair pair = std::minmax(static_cast<std::int64_t>(i[k]), static_cast<std::int64_t>(j[k]));
+    const std::pair<std::int64_t, std::int64_t> pair =
+        std::minmax({static_cast<std::int64_t>(i[k]), static_cast<std::int64_t>(j[k])});
     if (std::isnan(columns["joined"][k])) continue;
     columns["joined"][k] =
         frame.standing.contains(pair) || (strain <= 0.0 && frame.broken.contains(pair)) ? 1.0 : 0.0;

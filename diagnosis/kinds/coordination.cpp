@@ -14,7 +14,8 @@ void check(const Sample&, Observation& observation, std::vector<std::string>&) {
   const auto& z = observation.column("z");
   if (*std::min_element(z.begin(), z.end()) < 0.0 || largest_of(z) > kMostBridges)
     bad_input("{}: z: found {:.4g}, expected bridges per bead, 0 to 14", observation.file.string(),
-              largest_of(z));
+              *std::min_element(z.begin(), z.end()) < 0.0 ? *std::min_element(z.begin(), z.end()) : largest_of(z));
+  check_sigma(observation, "z_sigma", kMostBridges);
 }
 
 /// It is known before the test.

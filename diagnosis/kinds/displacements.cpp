@@ -1,3 +1,5 @@
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +12,7 @@
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
 #include "diagnosis/similarity.h"
+#include "packing/bridges.h"
 #include "packing/tables.h"
 
 namespace pendular::diagnosis {
@@ -20,6 +23,12 @@ constexpr double kUm = 1e6;
 constexpr double kShares[] = {0.4, 0.7, 1.0};
 constexpr double kElsewhere = 0.25;  // rms of motion over bead diameters, beyond which beads are others
 constexpr double kSamePlace = 0.1;   // likewise of places at rest
+constexpr double kStill = 0.003;     // rms of motion over the platen's way, below which beads do not take part
+constexpr double kAlongAxis = 0.75;  // least cosine to z of the direction in which beads approach most
+constexpr double kNeighbours = 0.1;  // gap over bead diameter
+constexpr double kAlike = 0.7;       // of neighbours' difference over that of any two beads, mean squares
+constexpr double kSeen = 4.0;        // of motion over its error, from which neighbours can be compared
+constexpr double kUnstated = 0.005;  // of that error over bead diameters, where none is stated
 
 using Names = std::array<const char*, 3>;
 constexpr Names kPlaces = {"x_um", "y_um", "z_um"}, kMotions = {"ux_um", "uy_um", "uz_um"};
@@ -56,6 +65,14 @@ std::set<double> scans_in(const Columns& columns) {
   return {strain.begin(), strain.end()};
 }
 
+/// The rows with this motion, m, in the place of their own.
+Columns with_motion(Columns rows, const std::vector<Vec3>& motion) {
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      rows[kMotions[static_cast<std::size_t>(axis)]][k] = kUm * motion[k][axis];
+  return rows;
+}
+
 /// The ids and places are those of the specimen's table.
 void read(Observation& observation, const CsvTable& table) {
   if (observation.beads.empty()) return;
@@ -65,40 +82,106 @@ void read(Observation& observation, const CsvTable& table) {
     known[bead.id] = bead.centre, diameter = std::max(diameter, bead.diameter);
   const auto ids = table.integers("bead_id");
   const auto rest = places_in(observation.columns);
-  double square = 0.0;
+  double square = 0.0, extent = 0.0, stated = 0.0;
   for (std::size_t k = 0; k < ids.size(); ++k) {
     const auto found = known.find(ids[k]);
     if (found == known.end())
       bad_input("{}: column bead_id: found bead {}, expected one of those of {}", table.where(k), ids[k],
                 observation.beads.string());
     square += (rest[k] - found->second).squaredNorm() / static_cast<double>(ids.size());
+    extent = std::max(extent, found->second.norm()), stated = std::max(stated, rest[k].norm());
   }
-  if (std::sqrt(square) > kSamePlace * diameter)
+  if (std::sqrt(square) <= kSamePlace * diameter) return;
+  bad_input(
+      "{}: found beads {:.3g} um (rms) from where {} has them, expected the same places at rest (is it {}?)",
+      observation.file.string(), kUm * std::sqrt(square), observation.beads.string(),
+      stated < 1e-5 * extent   ? "in m"
+      : stated < 1e-2 * extent ? "in mm"
+                               : "another specimen, or turned or mirrored");
+}
+
+double mean_square(const std::vector<Vec3>& all) {
+  double sum = 0.0;
+  for (const Vec3& one : all) sum += one.squaredNorm() / static_cast<double>(all.size());
+  return sum;
+}
+
+/// Mean square difference of neighbours' motion over that of any two beads: small where the motion is that of
+/// these beads, one where it is that of others. 0 where there are no neighbours.
+double unlikeness(const std::vector<Bead>& beads, const std::vector<Vec3>& motion) {
+  const auto pairs = candidate_bridges(beads, kNeighbours * mean_diameter(beads));
+  double sum = 0.0;
+  for (const auto& pair : pairs)
+    sum += (motion[static_cast<std::size_t>(pair.i)] - motion[static_cast<std::size_t>(pair.j)]).squaredNorm() /
+           static_cast<double>(pairs.size());
+  return sum / (2.0 * mean_square(motion));  // its mean is taken off
+}
+
+/// Cosine to z of the direction in which beads approach most: of their affine motion's strain.
+double direction_of_approach(const std::vector<Vec3>& places, const std::vector<Vec3>& motion) {
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& at : places) middle += at / static_cast<double>(places.size());
+  Eigen::Matrix3d product = Eigen::Matrix3d::Zero(), inertia = product;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    product += motion[k] * (places[k] - middle).transpose();
+    inertia += (places[k] - middle) * (places[k] - middle).transpose();
+  }
+  const Eigen::Matrix3d gradient = product * inertia.inverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> strain(0.5 * (gradient + gradient.transpose()));
+  return std::fabs(strain.eigenvectors()(2, 0));
+}
+
+/// The followed beads, as the specimen's table has them.
+std::vector<Bead> beads_in(const Observation& observation, const Columns& rows) {
+  std::map<double, Bead> by_id;
+  for (const auto& bead : read_beads(observation.beads)) by_id[static_cast<double>(bead.id)] = bead;
+  std::vector<Bead> followed;
+  for (const double id : rows.at("bead_id")) followed.push_back(by_id.at(id));
+  return followed;
+}
+
+/// That the motion at one strain can be that of these beads between platens that approach along z.
+void check_motion(const Sample& believed, const Observation& observation, const Columns& rows, double strain) {
+  const std::string file = observation.file.string();
+  const auto places = places_in(rows), motion = without_rigid_motion(places, motions_in(rows));
+  const double rms = std::sqrt(mean_square(motion)), way = strain * believed.specimen.height,
+               diameter = believed.beads.diameter;
+  if (rms > std::max(kElsewhere * diameter, 0.5 * way))
     bad_input(
-        "{}: found beads {:.3g} um (rms) from where {} has them, expected the same places at rest (another "
-        "specimen, or a table that is turned or mirrored?)",
-        observation.file.string(), kUm * std::sqrt(square), observation.beads.string());
+        "{}: found displacements of {:.3g} um (rms) beside any rigid motion at strain {:.4g}, expected those "
+        "of one specimen (beads of another, mirrored, or in another unit?)",
+        file, kUm * rms, strain);
+  if (rms < kStill * way)
+    bad_input(
+        "{}: found displacements of {:.3g} um (rms) beside any rigid motion at strain {:.4g}, expected about {:.3g} um "
+        "(are they in {}?)",
+        file, kUm * rms, strain, 0.2 * kUm * way, rms < 1e-5 * way ? "m" : "mm");
+  const double sigma = observation.has("sigma_um") ? mean_of(rows.at("sigma_um")) / kUm : kUnstated * diameter;
+  if (rms < kSeen * sigma) return;
+  if (!observation.beads.empty() && unlikeness(beads_in(observation, rows), motion) > kAlike)
+    bad_input(
+        "{}: found neighbours that move as differently as any two beads at strain {:.4g}, expected the motion of the "
+        "beads of {} (another specimen, or other ids?)",
+        file, strain, observation.beads.string());
+  if (const double cosine = direction_of_approach(places, motion); cosine < kAlongAxis)
+    bad_input(
+        "{}: found beads that approach most at {:.0f} degrees to z at strain {:.4g}, expected along z, as platens do "
+        "(turned, mirrored, or of the other sign?)",
+        file, std::acos(cosine) * 180.0 / M_PI, strain);
 }
 
 void check(const Sample& believed, Observation& observation, std::vector<std::string>&) {
   const std::string file = observation.file.string();
   check_strain(observation, "strain");
+  check_sigma(observation, "sigma_um", kUm * believed.beads.diameter);
   for (double strain : scans_in(observation.columns)) {
     if (strain <= 0.0)
       bad_input("{}: strain: found {:.4g}, expected the platen strain of a second scan, above 0", file, strain);
     const Columns rows = rows_at(observation.columns, strain);
     if (std::set<double>(rows.at("bead_id").begin(), rows.at("bead_id").end()).size() !=
         rows.at("bead_id").size())
-      bad_input("{}: column bead_id: found a bead twice in the scan at strain {:.4g}", file, strain);
-    double square = 0.0;
-    const auto motion = without_rigid_motion(places_in(rows), motions_in(rows));
-    for (const Vec3& u : motion) square += u.squaredNorm() / static_cast<double>(motion.size());
-    if (std::sqrt(square) > std::max(kElsewhere, 0.5 * strain * believed.specimen.height / believed.beads.diameter) *
-                                believed.beads.diameter)
-      bad_input(
-          "{}: found displacements of {:.3g} um (rms) beside any rigid motion at strain {:.4g}, expected those "
-          "of one specimen (beads of another, mirrored, or in another unit?)",
-          file, kUm * std::sqrt(square), strain);
+      bad_input("{}: column bead_id: found a bead twice in the scan at strain {:.4g}, expected each once", file, strain);
+    check_motion(believed, observation, rows, strain);
   }
 }
 
@@ -135,12 +218,9 @@ Columns simulate(const Observation& observation, const Simulated& simulated) {
 
 std::vector<Feature> landmarks(const Observation& observation, const Columns& columns) {
   FeatureList list(observation, Scale::network);
-  Columns last = rows_at(columns, *scans_in(columns).rbegin());
+  const Columns last = rows_at(columns, *scans_in(columns).rbegin());
   const auto motion = without_rigid_motion(places_in(last), motions_in(last));
-  for (std::size_t k = 0; k < motion.size(); ++k)
-    for (int axis = 0; axis < 3; ++axis)
-      last[kMotions[static_cast<std::size_t>(axis)]][k] = kUm * motion[k][axis];
-  for (const auto& [name, value] : displacement_signature(last)) list.difference(name, value);
+  for (const auto& [name, value] : displacement_signature(with_motion(last, motion))) list.difference(name, value);
   return list.take();
 }
 

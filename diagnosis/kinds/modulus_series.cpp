@@ -10,6 +10,7 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr double kMostPolymer = 0.3;
+constexpr double kOtherPolymer = 1e3;  // most that a polymer is stiffer or softer than the believed one
 
 void check(const Sample& believed, Observation& observation, std::vector<std::string>&) {
   if (observation.has("E_p_pa") == observation.has("W"))
@@ -18,7 +19,19 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
   if (observation.has("W") && largest_of(observation.column("W")) > kMostPolymer)
     bad_input("{}: W: found {:.4g}, expected fractions below 0.3 (is it in per cent?)",
               observation.file.string(), largest_of(observation.column("W")));
+  if (observation.has("E_p_pa"))
+    for (const double polymer : observation.column("E_p_pa"))
+      if (polymer < believed.bridges.youngs_modulus / kOtherPolymer ||
+          polymer > believed.bridges.youngs_modulus * kOtherPolymer)
+        bad_input("{}: E_p_pa: found {:.3g} Pa beside a believed {:.3g} Pa, expected polymers alike (is it in {}?)",
+                  observation.file.string(), polymer, believed.bridges.youngs_modulus,
+                  polymer < believed.bridges.youngs_modulus ? "MPa or kPa" : "mPa");
+  if (observation.has("W"))
+    for (const double content : observation.column("W"))
+      if (content <= 0.0)
+        bad_input("{}: W: found {:.4g}, expected positive fractions", observation.file.string(), content);
   const auto& modulus = observation.column("modulus_pa");
+  check_sigma(observation, "modulus_sigma_pa", largest_of(modulus));
   for (std::size_t k = 0; k < modulus.size(); ++k)
     check_modulus(observation, "modulus_pa", modulus[k],
                   observation.has("E_p_pa") ? observation.column("E_p_pa")[k]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <span>
 
@@ -96,7 +97,12 @@ void add_noise(std::vector<double>& values, const std::vector<double>& sigma, un
 
 void add_stated_noise(Columns& columns, const std::string& value, const std::string& sigma,
                       unsigned long seed) {
-  if (columns.contains(value) && columns.contains(sigma)) add_noise(columns[value], columns.at(sigma), seed);
+  if (!columns.contains(value) || !columns.contains(sigma)) return;
+  std::vector<double> logs = logarithms_of(columns.at(value)), shares = columns.at(sigma);
+  for (std::size_t k = 0; k < shares.size(); ++k) shares[k] /= columns.at(value)[k];
+  add_noise(logs, shares, seed);
+  for (std::size_t k = 0; k < logs.size(); ++k)
+    if (std::isfinite(logs[k])) columns[value][k] = std::exp(logs[k]);
 }
 
 void draw_rows_again(Columns& columns, unsigned long seed) {
@@ -111,10 +117,26 @@ void draw_rows_again(Columns& columns, unsigned long seed) {
 void check_strain(const Observation& observation, const std::string& column) {
   const double found = largest_of(observation.column(column));
   if (found > kLargestStrain)
-    bad_input("{}: {}: found values up to {:.4g}, expected fractions below 0.6 (is it in per cent?)",
+    bad_input("{}: {}: found values up to {:.4g}, expected fractions below 0.6 (is it in per cent, or a displacement in mm or um?)",
               observation.file.string(), column, found);
   if (found == 0.0)
     bad_input("{}: {}: found only zeros, expected a test that strains", observation.file.string(), column);
+}
+
+void check_rising(const Observation& observation, const std::string& column) {
+  const auto& values = observation.column(column);
+  const auto falls = std::adjacent_find(values.begin(), values.end(), std::greater<>());
+  if (falls != values.end())
+    bad_input("{}: {}: found {:.4g} after {:.4g}, expected the rows of first loading in order of time",
+              observation.file.string(), column, *std::next(falls), *falls);
+}
+
+void check_sigma(const Observation& observation, const std::string& column, double most) {
+  if (!observation.has(column)) return;
+  const double found = largest_of(observation.column(column));
+  if (found > most)
+    bad_input("{}: {}: found {:.3g}, expected standard deviations of no more than {:.3g} (the size of what was measured)",
+              observation.file.string(), column, found, most);
 }
 
 void check_length(const Observation& observation, const std::string& column, double least, double most) {

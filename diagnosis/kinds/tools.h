@@ -43,13 +43,17 @@ std::vector<double> strains_up_to(const std::vector<double>& all, double last);
 /// Normal noise of a standard deviation per row; `correlation` from row to row of half of its variance.
 void add_noise(std::vector<double>& values, const std::vector<double>& sigma, unsigned long seed,
                double correlation = 0.0);
-/// The same by a column's own sigma column, where both are there.
+/// Positive values by their own sigma column, where both are there: by factors, so that they stay positive.
 void add_stated_noise(Columns& columns, const std::string& value, const std::string& sigma,
                       unsigned long seed);
 /// Rows drawn again, with replacement.
 void draw_rows_again(Columns& columns, unsigned long seed);
 
 void check_strain(const Observation& observation, const std::string& column);
+/// That rows are in order of rising strain.
+void check_rising(const Observation& observation, const std::string& column);
+/// That no standard deviation, where the column is there, is beyond what the measured values can be off by.
+void check_sigma(const Observation& observation, const std::string& column, double most);
 /// That the median of a length is of the order of the beads, µm.
 void check_length(const Observation& observation, const std::string& column, double least, double most);
 /// That a stiffness is between a tenth and a thousand times the polymer's; the message says which unit would fit.

@@ -52,6 +52,32 @@ TEST(Plan, MagnitudesLieInTheUpperPartOfTheirRanges) {
     }
 }
 
+TEST(Plan, ObservationsGoFromACurveAloneToScansUnderLoad) {
+  Split split = sealed_split();
+  split.cases = 2000;
+  const double n = 2000.0;
+  std::map<std::string, double> share;
+  for (const auto& plan : plan_of(split)) {
+    share["alone"] += plan.kinds.empty() / n;
+    share["second"] += plan.short_specimen / n;
+    share["scanned"] += plan.scanned / n;
+    share["rest"] += plan.bridges_at_rest / n;
+    share["load"] += plan.bridges_under_load / n;
+    // Each level has what the one before it has.
+    EXPECT_LE(plan.scanned, plan.short_specimen);
+    EXPECT_LE(plan.bridges_under_load, plan.bridges_at_rest);
+    EXPECT_LE(plan.bridges_at_rest, plan.scanned);
+    if (!plan.kinds.empty()) {
+      EXPECT_EQ(plan.kinds[0], "coordination");
+      EXPECT_EQ(plan.kinds[1], "lateral_strain");
+    }
+  }
+  // Within four standard errors.
+  for (const auto& [what, expected] :
+       {std::pair("alone", 0.15), {"second", 0.65}, {"scanned", 0.40}, {"rest", 0.20}, {"load", 0.10}})
+    EXPECT_NEAR(share[what], expected, 4.0 * std::sqrt(expected * (1.0 - expected) / n)) << what;
+}
+
 TEST(Plan, NamesTellNothingOfTheStratum) {
   const auto plans = plan_of(sealed_split());
   int changes = 0;

@@ -6,6 +6,10 @@
 #include <set>
 
 #include "diagnosis/specimens.h"
+#include "measured_beads.h"
+#include "observations.h"
+#include "packing/tables.h"
+#include "scratch.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -39,7 +43,52 @@ TEST(Bank, RunsEveryEffectAtThirdsAndInBothDirections) {
   EXPECT_TRUE(plan.absent.contains("funicular_bridges"));       // no polymer above W*
   std::set<int> members;
   for (const auto& point : plan.points) members.insert(point.member);
-  EXPECT_EQ(members.size(), 5u);
+  EXPECT_EQ(members.size(), 6u);
+}
+
+/// How often a magnitude of an effect is run, in all tests and in those that end at a scan.
+std::pair<int, int> draws_of(const BankPlan& plan, const std::string& id) {
+  std::pair<int, int> count = {0, 0};
+  const double first = *magnitudes(plan, id).begin();
+  for (const auto& point : plan.points)
+    if (point.id == id && point.theta == first) ++count.second, count.first += !point.scans_only;
+  return count;
+}
+
+TEST(Bank, EffectsThatDrawAreDrawnAgain) {
+  const BankPlan plan = plan_bank(one_compression(), {}, "beads");
+  std::set<std::uint64_t> seeds;
+  for (const auto& point : plan.points)
+    if (point.id == "missing_bridges" && point.theta == *magnitudes(plan, "missing_bridges").begin())
+      seeds.insert(point.seed);
+  EXPECT_EQ(draws_of(plan, "missing_bridges"), std::pair(3, 3));
+  EXPECT_EQ(seeds.size(), 3u);
+  EXPECT_EQ(draws_of(plan, "bridge_bending"), std::pair(1, 1));
+}
+
+TEST(Bank, AScanOfMeasuredBeadsIsRunTwiceAsOften) {
+  pendular::test::ScratchFolder folder;
+  Experiment experiment = one_compression();
+  experiment.sample = pendular::test::touching_sample();
+  experiment.uncertainty.clear();
+  write_beads(folder / "beads.csv", pendular::test::measured_beads(), {});
+  experiment.observations[0].beads = folder / "beads.csv";
+  experiment.observations.push_back(
+      test::observation(kinds::displacements(), "scan", {{"strain", {0.01, 0.01}}, {"bead_id", {1, 2}}}));
+  experiment.observations[1].beads = folder / "beads.csv";
+  const BankPlan plan = plan_bank(experiment, {}, folder / "moved");
+  ASSERT_EQ(plan.conditions.size(), 2u);
+  EXPECT_EQ(std::count_if(plan.conditions.begin(), plan.conditions.end(), ends_at_scan), 1);
+  std::set<int> members, of_curves;
+  for (const auto& [point, condition] : plan.runs) {
+    if (!plan.points[point].id.empty()) continue;
+    members.insert(plan.points[point].member);
+    if (!ends_at_scan(plan.conditions[condition])) of_curves.insert(plan.points[point].member);
+  }
+  EXPECT_EQ(of_curves.size(), 12u);  // beads moved by their errors
+  EXPECT_EQ(members.size(), 24u);
+  EXPECT_EQ(draws_of(plan, "missing_bridges"), std::pair(3, 6));
+  EXPECT_EQ(draws_of(plan, "bridge_bending"), std::pair(1, 1));
 }
 
 TEST(Bank, LeavesOutWhatItIsAsked) {

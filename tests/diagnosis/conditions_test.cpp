@@ -2,26 +2,21 @@
 
 #include <gtest/gtest.h>
 
+#include "observations.h"
+
 namespace pendular::diagnosis {
 namespace {
 
-Observation observation(Kind kind, const std::string& name,
-                        std::map<std::string, std::vector<double>> columns) {
-  Observation made;
-  made.kind = kind;
-  made.name = name;
-  made.columns = std::move(columns);
-  return made;
-}
+using test::observation;
 
 TEST(Conditions, OneSpecimenIsSimulatedOnceAndAsFarAsAnyObservationGoes) {
   Experiment experiment;
   experiment.observations = {
-      observation(Kind::compression, "A",
+      observation(kinds::compression(), "A",
                   {{"strain", {0.0, 0.02, 0.01, 0.04}}, {"stress_pa", {0, 2e5, 0, 5e5}}}),
-      observation(Kind::lateral_strain, "side", {{"strain", {0.0, 0.06}}, {"lateral_strain", {0.0, 0.02}}}),
-      observation(Kind::coordination, "z", {{"z", {7.0}}, {"z_sigma", {0.1}}}),
-      observation(Kind::bridge_gaps, "gaps", {{"gap_um", {1, 2, 3, 4}}})};
+      observation(kinds::lateral_strain(), "side", {{"strain", {0.0, 0.06}}, {"lateral_strain", {0.0, 0.02}}}),
+      observation(kinds::coordination(), "z", {{"z", {7.0}}, {"z_sigma", {0.1}}}),
+      observation(kinds::bridge_gaps(), "gaps", {{"gap_um", {1, 2, 3, 4}}})};
   const auto conditions = conditions_of(experiment);
   ASSERT_EQ(conditions.size(), 1u);
   EXPECT_EQ(conditions[0].observations, (std::vector<std::size_t>{0, 1, 2}));
@@ -31,7 +26,7 @@ TEST(Conditions, OneSpecimenIsSimulatedOnceAndAsFarAsAnyObservationGoes) {
 
 TEST(Conditions, AnotherPolymerOrOtherBeadsAreAnotherSpecimen) {
   Experiment experiment;
-  const auto curve = observation(Kind::compression, "A", {{"strain", {0.0, 0.04}}, {"stress_pa", {0, 5e5}}});
+  const auto curve = observation(kinds::compression(), "A", {{"strain", {0.0, 0.04}}, {"stress_pa", {0, 5e5}}});
   experiment.observations = {curve, curve, curve};
   experiment.observations[1].set = {{"bridges.youngs_modulus_pa", 6.4e5}};
   experiment.observations[2].beads = "beads.csv";
@@ -44,9 +39,9 @@ TEST(Conditions, AnotherPolymerOrOtherBeadsAreAnotherSpecimen) {
 TEST(Conditions, ASeriesIsASpecimenPerRow) {
   Experiment experiment;
   experiment.observations = {
-      observation(Kind::modulus_series, "W",
+      observation(kinds::modulus_series(), "W",
                   {{"W", {0.01, 0.04}}, {"modulus_pa", {1e6, 3e6}}, {"modulus_sigma_pa", {1, 1}}}),
-      observation(Kind::modulus_series, "E",
+      observation(kinds::modulus_series(), "E",
                   {{"E_p_pa", {5e5}}, {"modulus_pa", {1e6}}, {"modulus_sigma_pa", {1}}})};
   const auto conditions = conditions_of(experiment);
   ASSERT_EQ(conditions.size(), 3u);

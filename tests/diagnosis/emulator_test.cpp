@@ -68,6 +68,29 @@ TEST(Emulator, ScatterIsThatOfTheNoise) {
   EXPECT_GT(scatter.covariance(0, 0), responses.between(0, 0) + responses.within(0, 0));
 }
 
+TEST(Emulator, WhatDrawsDifferByIsTheEffectsOwnAndNoScatter) {
+  // Each run has a draw of its own, which grows with θ: sd 0.5 and 1 with a correlation of 0.8 at θ = 0.3.
+  std::vector<DesignRun> runs;
+  for (int member = 0; member < 6; ++member) runs.push_back({member, "", 0.0, Eigen::Vector2d(0.0, 0.0)});
+  for (std::uint64_t n = 0; n < 300; ++n) {
+    const double theta = 0.1 * static_cast<double>(1 + n % 3), a = random_normal(21, 2 * n), b = random_normal(21, 2 * n + 1);
+    runs.push_back({static_cast<int>(n % 6), "e", theta,
+                    theta * Eigen::Vector2d(2.0, -1.0) + theta / 0.3 * Eigen::Vector2d(0.5 * a, 0.8 * a + 0.6 * b), true});
+  }
+  for (std::uint64_t n = 0; n < 12; ++n)
+    runs.push_back({static_cast<int>(n % 6), "steady", 0.1 * static_cast<double>(1 + n % 3), Eigen::Vector2d(0.1, 0.1)});
+  const auto responses = fit_responses(runs, 2);
+  const Signature& found = *responses.find("e");
+  EXPECT_DOUBLE_EQ(found.drawn_at, 0.3);
+  EXPECT_NEAR(found.draws(0, 0), 0.25, 0.06);
+  EXPECT_NEAR(found.draws(1, 1), 1.0, 0.2);
+  EXPECT_GT(found.draws(0, 1), 0.2);  // 0.4, drawn to the diagonal
+  EXPECT_LT(found.draws(0, 1), 0.48);
+  EXPECT_NEAR(found.at(0.3)[0], 0.6, 0.1);
+  EXPECT_EQ(responses.find("steady")->draws.size(), 0);
+  EXPECT_LT(responses.within.norm(), 0.01);  // of the draws nothing is in the scatter
+}
+
 TEST(Emulator, FewMembersDoNotPretendToKnowCorrelations) {
   Responses responses;
   responses.members = {1, 2};

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "diagnosis/reduced_space.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -35,7 +36,7 @@ std::vector<Signature> effects(int count, double strength) {
 }
 
 Gap gap_of(const Eigen::VectorXd& values) {
-  return {values, Eigen::MatrixXd::Identity(kFeatures, kFeatures), 0.0, Eigen::MatrixXd::Zero(kFeatures, 0)};
+  return {values, Eigen::MatrixXd::Identity(kFeatures, kFeatures), 0.0, {}, Eigen::MatrixXd::Zero(kFeatures, 0)};
 }
 
 double probability(const std::vector<Hypothesis>& all, const std::string& id) {
@@ -61,7 +62,7 @@ TEST(Evidence, OfOneFeatureIsItsIntegralOverMagnitudes) {
   s.id = "a";
   s.powers = {Eigen::VectorXd::Constant(1, 2.0)};
   s.lowest = -8.0, s.highest = 8.0, s.scale = 1.0;
-  const Gap gap = {Eigen::VectorXd::Constant(1, 3.0), Eigen::MatrixXd::Constant(1, 1, 1.0), 0.0,
+  const Gap gap = {Eigen::VectorXd::Constant(1, 3.0), Eigen::MatrixXd::Constant(1, 1, 1.0), 0.0, {},
                    Eigen::MatrixXd::Zero(1, 0)};
   for (const auto& h : weigh(gap, {s})) {
     if (h.id == "none") {
@@ -144,6 +145,70 @@ TEST(Evidence, AnEstimatedCovarianceIsTrustedLess) {
   const double known = probability(weigh(gap, effects(4, 8.0)), "none");
   gap.freedom = 6.0;
   EXPECT_GT(probability(weigh(gap, effects(4, 8.0)), "none"), known);
+}
+
+TEST(Evidence, AnEstimatedCovarianceGivesStudentsDensity) {
+  // One feature three noises off, its variance known with four degrees of freedom.
+  Signature s = effects(1, 1.0).front();
+  s.powers = {Eigen::VectorXd::Constant(1, 1.0)};
+  const Gap gap = {Eigen::VectorXd::Constant(1, 3.0), Eigen::MatrixXd::Constant(1, 1, 1.0), 4.0, {},
+                   Eigen::MatrixXd::Zero(1, 0)};
+  const double student = 0.375 * std::pow(1.0 + 9.0 / 4.0, -2.5);  // 3/8 (1 + t²/4)^(-5/2)
+  for (const auto& h : weigh(gap, {s}))
+    if (h.id == "none") {
+      EXPECT_NEAR(h.log_evidence, std::log(student), 1e-9);
+    }
+}
+
+TEST(Evidence, FindsAPairAndBothMagnitudes) {
+  const auto all = effects(5, 12.0);
+  int found = 0;
+  double first = 0.0, second = 0.0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const auto hypotheses = weigh(gap_of(all[1].at(1.2) + all[3].at(0.9) + draw(700 + seed)), all);
+    if (hypotheses.front().id != "b+d") continue;
+    ++found;
+    first += hypotheses.front().magnitudes[0].mean, second += hypotheses.front().magnitudes[1].mean;
+  }
+  ASSERT_GE(found, 16);
+  EXPECT_NEAR(first / found, 1.2, 0.2);
+  EXPECT_NEAR(second / found, 0.9, 0.2);
+}
+
+TEST(Evidence, WhatDrawsOfAnEffectDifferByIsNotHeldAgainstIt) {
+  // One draw of the effect does something in a direction of its own besides what all draws do.
+  auto all = effects(3, 8.0);
+  const Eigen::VectorXd own = 5.0 * draw(77).normalized();
+  const Gap gap = gap_of(all[0].at(1.0) + own);
+  const double held = probability(weigh(gap, all), "a");
+  all[0].draws = 25.0 / kFeatures * Eigen::MatrixXd::Identity(kFeatures, kFeatures);
+  EXPECT_GT(probability(weigh(gap, all), "a"), 2.0 * held);
+}
+
+TEST(Evidence, WhatKnownRunsLeaveOutsideIsNoSurprise) {
+  // Two effects of eight directions; runs of the bank scatter outside of them four times as far as the noise.
+  const auto all = effects(2, 8.0);
+  std::vector<Eigen::VectorXd> runs;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) runs.push_back(4.0 * draw(8000 + seed));
+  Gap gap = gap_of(4.0 * draw(8100));
+  for (const auto& s : all)  // nothing of the effects in it
+    for (int round = 0; round < 50; ++round)
+      for (const auto& power : s.powers) gap.values -= power.normalized() * power.normalized().dot(gap.values);
+  const double surprised = probability(weigh(gap, all), "unknown");
+  gap.outside = outside_of(gap, all, runs);
+  ASSERT_EQ(gap.outside.size(), runs.size());
+  EXPECT_GT(surprised, 0.9);
+  EXPECT_LT(probability(weigh(gap, all), "unknown"), 0.5);
+}
+
+TEST(Evidence, OutsideIsWhatResponsesDoNotSpan) {
+  // Two responses along the first two axes; the rest of a gap of the noise's size is χ² of what remains.
+  std::vector<Signature> all = effects(2, 8.0);
+  for (int k = 0; k < 2; ++k) all[static_cast<std::size_t>(k)].powers = {8.0 * Eigen::VectorXd::Unit(kFeatures, k)};
+  const Gap gap = gap_of(Eigen::VectorXd::Zero(kFeatures));
+  EXPECT_EQ(ReducedSpace(gap, all).size(), 2);
+  const Eigen::VectorXd value = draw(3);
+  EXPECT_NEAR(outside_of(gap, all, {value}).front(), value.tail(kFeatures - 2).squaredNorm(), 1e-9);
 }
 
 TEST(Evidence, AlikeEffectsAreNotIsolable) {

@@ -108,6 +108,10 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"AbsentFile", "e.toml", kHead + "[[observation]]\nkind = \"compression\"\nfile = \"B.csv\"\n",
             "B.csv"},
         Bad{"SameNameTwice", "e.toml", kHead + kOne + kOne, "\"A\""},
+        Bad{"UnknownWordOfAKind", "e.toml",
+            kHead + "[[observation]]\nkind = \"broken_bonds\"\nfile = \"A.csv\"\ncounts = \"rate\"\n",
+            "per_interval"},
+        Bad{"KeyOfAnotherKind", "e.toml", kHead + kOne + "counts = \"total\"\n", "observation.counts"},
         Bad{"SeriesWithoutAbscissa", "e.toml",
             kHead + "[[observation]]\nkind = \"modulus_series\"\nfile = \"m.csv\"\n", "m.csv"}),
     [](const auto& test) { return test.param.name; });

@@ -21,7 +21,7 @@ std::vector<Feature> features(int count) {
 }
 
 Gap gap_of(const Eigen::VectorXd& values, const Eigen::MatrixXd& covariance) {
-  return {values, covariance, 0.0, Eigen::MatrixXd::Zero(values.size(), 0)};
+  return {values, covariance, 0.0, {}, Eigen::MatrixXd::Zero(values.size(), 0)};
 }
 
 TEST(Gap, ThresholdOfIndependentFeaturesIsSidaks) {

@@ -12,23 +12,24 @@
 namespace pendular::diagnosis {
 namespace {
 
-/// Three features of one curve; compliance and missing bridges lower the first alike and differ in the
-/// second.
+/// Three features of one curve, read alike at both levels; compliance and missing bridges lower the first alike
+/// and differ in the second.
 Problem planted(const Eigen::Vector3d& gap) {
-  Problem problem;
+  Comparison one;
   for (const char* name : {"linear_modulus", "coordination", "peak_stress"})
-    problem.observed.features.push_back({"A", name, Scale::aggregate, true, 1.0, 0.0, 0.0});
-  problem.observed.observation = {0, 0, 0};
-  problem.observed.sigmas = {0.02, 0.02, 0.02};
-  problem.simulated = Eigen::Vector3d::Zero();
-  problem.gap.values = gap;
-  problem.gap.covariance = 4e-4 * Eigen::Matrix3d::Identity();
-  problem.gap.believed = Eigen::Vector3d(0.03, 0.0, 0.02);
-  problem.inputs = {"bridges.youngs_modulus_pa"};
-  problem.signatures = {{"missing_bridges", {Eigen::Vector3d(-2.0, -1.0, -1.5)}, 0.0, 0.4, 0.15},
-                        {"machine_compliance", {Eigen::Vector3d(-0.05, 0.0, 0.0)}, 0.0, 13.0, 5.0}};
-  problem.noise.resize(3);
-  return problem;
+    one.observed.features.push_back({"A", name, Scale::aggregate, true, 1.0, 0.0, 0.0});
+  one.observed.observation = {0, 0, 0};
+  one.observed.measurement = 4e-4 * Eigen::Matrix3d::Identity();
+  one.observed.model = Eigen::Matrix3d::Zero();
+  one.simulated = Eigen::Vector3d::Zero();
+  one.gap.values = gap;
+  one.gap.covariance = one.observed.measurement;
+  one.gap.believed = Eigen::Vector3d(0.03, 0.0, 0.02);
+  one.inputs = {"bridges.youngs_modulus_pa"};
+  one.signatures = {{"missing_bridges", {Eigen::Vector3d(-2.0, -1.0, -1.5)}, 0.0, 0.4, 0.15},
+                    {"machine_compliance", {Eigen::Vector3d(-0.05, 0.0, 0.0)}, 0.0, 13.0, 5.0}};
+  one.noise.resize(3);
+  return {one, one, {}};
 }
 
 Experiment one_curve() {
@@ -83,7 +84,7 @@ TEST(Judgement, WhatNoEffectCanDoIsUnknown) {
 
 TEST(Judgement, EffectsThatLookAlikeAreASet) {
   Problem problem = planted({-0.4, 0.0, 0.0});
-  problem.signatures[0].powers = {Eigen::Vector3d(-2.0, 0.0, 0.0)};
+  problem.readings.signatures[0].powers = {Eigen::Vector3d(-2.0, 0.0, 0.0)};
   Diagnosis diagnosis;
   judge(problem, {}, {}, one_curve(), diagnosis);
   for (const char* id : {"missing_bridges", "machine_compliance"})
@@ -100,7 +101,7 @@ TEST(Judgement, WhatOneExplanationHasNeedsNoFurtherExperiment) {
 }
 
 TEST(Shrinkage, IsOneWhereTheGapIsGoneAndZeroWhereItStays) {
-  const Gap gap = planted({-0.4, -0.2, -0.3}).gap;
+  const Gap gap = planted({-0.4, -0.2, -0.3}).landmarks.gap;
   const auto gone = shrinkage_of(gap, Eigen::Vector3d::Zero());
   EXPECT_EQ(gone.after, 0.0);
   EXPECT_EQ(gone.fraction, 1.0);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/random.h"
+#include "diagnosis/kinds/kind.h"
 
 namespace pendular::test {
 namespace {
@@ -13,6 +14,7 @@ using diagnosis::Columns;
 using diagnosis::Diagnosis;
 using diagnosis::Kind;
 using diagnosis::Scale;
+namespace kinds = diagnosis::kinds;
 
 const std::vector<std::pair<std::string, std::string>> kEffects = {{"bridge_gap_spread", "\u00b5m"},
                                                                    {"bridge_diameter_spread", "\u00b5m"},
@@ -87,7 +89,7 @@ double spread(std::uint64_t seed) {
 
 void add_compression(Diagnosis& d, const std::string& name, double modulus) {
   d.overlays.push_back(
-      {name, Kind::compression, compression(modulus, 1, true),
+      {name, &kinds::compression(), compression(modulus, 1, true),
        runs(5, [=](auto seed) { return compression(1.9 * modulus * spread(seed), seed, false); }),
        runs(4, [=](auto seed) { return compression(1.05 * modulus * spread(seed), seed, false); })});
 }
@@ -207,7 +209,7 @@ void add_rest(Diagnosis& d) {
 
 void add_coordination(Diagnosis& d) {
   d.overlays.push_back({"Z",
-                        Kind::coordination,
+                        &kinds::coordination(),
                         {{"z", {5.1}}, {"z_sigma", {0.1}}},
                         runs(5,
                              [](auto seed) {
@@ -221,11 +223,11 @@ void add_coordination(Diagnosis& d) {
 
 void add_displacements(Diagnosis& d) {
   d.overlays.push_back({"scan",
-                        Kind::displacements,
+                        &kinds::displacements(),
                         displacements(0.85, 2),
                         runs(5, [](auto seed) { return displacements(spread(seed), seed); }),
                         {}});
-  for (const char* name : {"bulk_strain_share", "radial_share", "tilt_share", "wandering"})
+  for (const char* name : {"deviatoric_share", "tilt_share", "wandering"})
     add_row(d, "scan", name, Scale::network, false, 0.0, 0.02);
 }
 
@@ -280,27 +282,27 @@ Diagnosis crowded_diagnosis() {
   Diagnosis d = with_effects();
   add_compression(d, "a taller specimen of the second batch, slowly", 1e7);
   add_curve_rows(d, "a taller specimen of the second batch, slowly");
-  const auto add = [&](const std::string& name, Kind kind,
+  const auto add = [&](const std::string& name, const Kind& kind,
                        const std::function<Columns(double, std::uint64_t)>& make) {
-    d.overlays.push_back({name, kind, make(1.0, 1),
+    d.overlays.push_back({name, &kind, make(1.0, 1),
                           runs(24, [&](auto seed) { return make(1.3 * spread(seed), seed); }),
                           runs(4, [&](auto seed) { return make(1.02 * spread(seed), seed); })});
-    add_row(d, name, to_string(kind) + "_level", Scale::bridge, true, 0.0, 0.0);
+    add_row(d, name, kind.name + "_level", Scale::bridge, true, 0.0, 0.0);
   };
-  add("E(Ep)", Kind::modulus_series, [](double f, auto) {
+  add("E(Ep)", kinds::modulus_series(), [](double f, auto) {
     return line("E_p_pa", "modulus_pa", "modulus_sigma_pa", {5e5, 1.5e6, 6e6}, 10.0 * f);
   });
-  add("kn(d)", Kind::bridge_stiffness, [](double f, auto) {
+  add("kn(d)", kinds::bridge_stiffness(), [](double f, auto) {
     auto columns = line("d_um", "kn_n_per_m", "kn_sigma_n_per_m", {80, 60, 70, 90, 100}, 1.5 * f);
     for (const double v : columns["kn_n_per_m"]) columns["kt_n_per_m"].push_back(0.4 * v);
     return columns;
   });
-  add("necks", Kind::bridge_diameters, [](double f, auto seed) { return sample("d_um", 74 * f, 12, seed); });
-  add("gaps", Kind::bridge_gaps, [](double f, auto seed) { return sample("gap_um", 2 * f, 0.3, seed); });
-  add("lateral", Kind::lateral_strain, [](double f, auto) {
+  add("necks", kinds::bridge_diameters(), [](double f, auto seed) { return sample("d_um", 74 * f, 12, seed); });
+  add("gaps", kinds::bridge_gaps(), [](double f, auto seed) { return sample("gap_um", 2 * f, 0.3, seed); });
+  add("lateral", kinds::lateral_strain(), [](double f, auto) {
     return line("strain", "lateral_strain", "sigma", {0.005, 0.01, 0.015, 0.02, 0.025, 0.03}, 0.3 * f);
   });
-  add("breaks", Kind::broken_bonds, [](double f, auto) {
+  add("breaks", kinds::broken_bonds(), [](double f, auto) {
     return line("strain", "count", "", {0.01, 0.02, 0.03, 0.04, 0.05}, 2000.0 * f);
   });
   for (int k = 0; k < 6; ++k) d.effects.push_back("further_effect_number_" + std::to_string(k));
@@ -313,7 +315,7 @@ Diagnosis quiet_diagnosis() {
   d.experiment = "one curve";
   d.verdict = "Nothing differs beyond noise.";
   d.overlays.push_back({"A",
-                        Kind::compression,
+                        &kinds::compression(),
                         compression(1e7, 1, false),
                         runs(2, [](auto seed) { return compression(1e7 * spread(seed), seed, false); }),
                         {}});

@@ -1,0 +1,119 @@
+#include "diagnosis/reduced_space.h"
+
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr double kFreedom = 30.0;  // most that the likelihood trusts a covariance with
+constexpr Eigen::Index kMostDirections = 45;
+constexpr double kLeastDirection = 0.5;  // singular value, in units of the noise
+constexpr double kLongest = 8.0;         // a response counts no more than this for the directions
+constexpr int kSpanned = 3;              // magnitudes of each sign whose responses span
+constexpr std::size_t kLeastKnown = 8;   // runs from which what is outside is learnt
+
+}  // namespace
+
+ReducedSpace::ReducedSpace(const Gap& gap, const std::vector<Signature>& signatures)
+    : factor_(gap.covariance + gap.believed * gap.believed.transpose()),
+      freedom_(gap.freedom > 0.0 ? std::min(gap.freedom, kFreedom) : 0.0) {
+  find_directions(signatures);
+  values_ = reduced(gap.values);
+  outside_ = outside(gap.values);
+  dimensions_ = static_cast<double>(gap.values.size() - values_.size());
+  learn_outside(gap.outside);
+}
+
+Eigen::MatrixXd ReducedSpace::reduced_covariance(const Eigen::MatrixXd& covariance) const {
+  const Eigen::MatrixXd half = factor_.matrixL().solve(covariance);
+  const Eigen::MatrixXd whole = factor_.matrixL().solve(half.transpose());
+  return directions_.transpose() * whole * directions_;
+}
+
+Signature ReducedSpace::reduced(const Signature& signature) const {
+  Signature found = signature;
+  for (auto& power : found.powers) power = reduced(power);
+  if (signature.draws.size() > 0) found.draws = reduced_covariance(signature.draws);
+  return found;
+}
+
+double ReducedSpace::outside(const Eigen::VectorXd& v) const {
+  return std::max(0.0, whiten(v).squaredNorm() - reduced(v).squaredNorm());
+}
+
+ReducedSpace::Fit ReducedSpace::fit(const Eigen::VectorXd& response, const Eigen::MatrixXd& covariance) const {
+  Eigen::MatrixXd wider = covariance;
+  wider.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::MatrixXd> factor(wider);
+  const double misfit = factor.matrixL().solve(values_ - response).squaredNorm();
+  const double log_volume = factor.matrixLLT().diagonal().array().log().sum();
+  return {density(misfit, log_volume) + log_outside(1.0), misfit, log_volume};
+}
+
+double ReducedSpace::widened(const Fit& fit, double factor) const {
+  return density(fit.misfit / (factor * factor),
+                 fit.log_volume + static_cast<double>(size()) * std::log(factor)) +
+         log_outside(factor);
+}
+
+void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {
+  std::vector<Eigen::VectorXd> columns;
+  for (const auto& signature : signatures)
+    for (const double end : {signature.lowest, signature.highest})
+      for (int k = 1; k <= kSpanned && end != 0.0; ++k) {
+        const Eigen::VectorXd response = whiten(signature.at(end * k / kSpanned));
+        const double length = response.norm();
+        if (length > 0.0) columns.push_back(response * std::min(1.0, kLongest / length));
+      }
+  const Eigen::Index features = factor_.rows();
+  directions_ = Eigen::MatrixXd::Identity(features, features);
+  if (columns.empty() || features <= 2) return;
+  Eigen::MatrixXd all(features, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) all.col(static_cast<Eigen::Index>(k)) = columns[k];
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(all, Eigen::ComputeThinU);
+  Eigen::Index kept = 0;
+  while (kept < std::min(kMostDirections, svd.singularValues().size()) &&
+         svd.singularValues()[kept] > kLeastDirection)
+    ++kept;
+  if (kept > 0) directions_ = svd.matrixU().leftCols(kept);
+}
+
+// What known runs leave outside is a multiple of χ², of their mean and variance; without runs, χ² itself.
+void ReducedSpace::learn_outside(const std::vector<double>& known) {
+  outside_freedom_ = dimensions_;
+  if (known.size() < kLeastKnown || dimensions_ <= 0.0) return;
+  const double n = static_cast<double>(known.size());
+  double mean = 0.0, square = 0.0;
+  for (double one : known) mean += one / n;
+  for (double one : known) square += (one - mean) * (one - mean) / (n - 1.0);
+  if (!(mean > 0.0 && square > 0.0)) return;
+  outside_scale_ = square / (2.0 * mean);
+  outside_freedom_ = 2.0 * mean * mean / square;
+}
+
+double ReducedSpace::log_outside(double factor) const {
+  if (dimensions_ <= 0.0) return 0.0;
+  const double half = 0.5 * outside_freedom_, scale = outside_scale_ * factor * factor,
+               x = std::max(1e-9, outside_ / scale);
+  return (half - 1.0) * std::log(x) - 0.5 * x - half * M_LN2 - std::lgamma(half) - std::log(scale);
+}
+
+double ReducedSpace::density(double squared, double log_volume) const {
+  const double p = static_cast<double>(size());
+  if (freedom_ <= 0.0) return -log_volume - 0.5 * squared - 0.5 * p * std::log(2.0 * M_PI);
+  return -log_volume + std::lgamma(0.5 * (freedom_ + p)) - std::lgamma(0.5 * freedom_) -
+         0.5 * p * std::log(M_PI * freedom_) - 0.5 * (freedom_ + p) * std::log1p(squared / freedom_);
+}
+
+std::vector<double> outside_of(const Gap& gap, const std::vector<Signature>& signatures,
+                               const std::vector<Eigen::VectorXd>& values) {
+  const ReducedSpace space(gap, signatures);
+  std::vector<double> squares;
+  for (const auto& one : values) squares.push_back(space.outside(one));
+  return squares;
+}
+
+}  // namespace pendular::diagnosis

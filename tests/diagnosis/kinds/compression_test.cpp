@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "observations.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+using test::observation;
+using test::value;
+
+constexpr double kModulus = 2e7, kUnloading = 5e7;
+constexpr double kFloor = 0.004;  // strain below which the stress is too small to be told from none
+
+/// Stress rises with the square of strain up to 4 %, where the platen turns until the stress is zero along a
+/// straight line, and comes back along it; then on to 6 %.
+Columns curve() {
+  Columns columns;
+  const auto add = [&](double strain, double stress) {
+    columns["strain"].push_back(strain), columns["stress_pa"].push_back(stress);
+  };
+  const auto loading = [](double strain) { return kModulus * strain * strain / 0.04; };
+  const double top = loading(0.04), width = top / kUnloading;
+  for (int k = 0; k <= 160; ++k) add(2.5e-4 * k, loading(2.5e-4 * k));
+  for (int k = 1; k <= 80; ++k) add(0.04 - width * k / 80.0, top * (1.0 - k / 80.0));
+  for (int k = 1; k <= 80; ++k) add(0.04 - width * (1.0 - k / 80.0), top * k / 80.0);
+  for (int k = 161; k <= 240; ++k) add(2.5e-4 * k, loading(2.5e-4 * k));
+  return columns;
+}
+
+Observation measured() {
+  return observation(kinds::compression(), "A", curve());
+}
+
+TEST(Compression, ReadingsAreTheStressAtFixedStrains) {
+  const auto readings = features_of(Level::readings, measured(), curve());
+  int read = 0;
+  for (const auto& feature : readings) {
+    if (!feature.name.starts_with("stress_at")) continue;
+    const double strain = feature.strain_to, expected = kModulus * strain * strain / 0.04;
+    // A line through rows within h of a parabola lies (h/strain)²/3 too high.
+    const double high = std::pow(std::max(8e-4, 0.06 * strain) / strain, 2) / 3.0;
+    if (strain < kFloor || strain > 0.056) continue;
+    EXPECT_NEAR(feature.value / expected, 1.0 + high, 0.25 * high + 2e-4) << feature.name;
+    EXPECT_TRUE(feature.logarithm);
+    ++read;
+  }
+  EXPECT_EQ(read, 16);  // 0.45 to 5.5 %
+}
+
+TEST(Compression, ReadingsOfALoopAreSharesOfTheStressAtItsTurn) {
+  // Along a straight line to zero stress, a depth of a fifth of the strain is a fifth of the stress.
+  for (const auto& [depth, share] : {std::pair("20", 0.8), {"40", 0.6}, {"60", 0.4}, {"80", 0.2}})
+    for (const char* way : {"unloading", "reloading"})
+      EXPECT_NEAR(value(measured(), fmt::format("{}_1_at_{}_percent", way, depth), Level::readings), share, 0.005)
+          << way << depth;
+}
+
+TEST(Compression, AScaledCurveDiffersByItsFactorAlone) {
+  Columns softer = curve();
+  for (double& stress : softer["stress_pa"]) stress *= 0.7;
+  const auto before = features_of(Level::readings, measured(), curve()),
+             after = features_of(Level::readings, measured(), softer);
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t k = 0; k < before.size(); ++k)
+    EXPECT_NEAR(after[k].compared() - before[k].compared(),
+                before[k].name.starts_with("stress_at") && before[k].strain_to > kFloor ? std::log(0.7) : 0.0, 1e-9)
+        << before[k].name;
+}
+
+TEST(Compression, NothingIsReadBeyondACurve) {
+  Columns shorter = curve();
+  for (auto& [name, column] : shorter) column.resize(120);  // to 3 %
+  for (const auto& feature : features_of(Level::readings, measured(), shorter)) EXPECT_LE(feature.strain_to, 0.03);
+}
+
+TEST(Compression, IsSimulatedByTheRowsOfItsTest) {
+  SimulatedTest test;
+  test.rows.resize(2);
+  test.rows[1].strain = 0.01, test.rows[1].stress = 1e5;
+  const Columns columns = kinds::compression().simulate(measured(), {Sample{}, &test});
+  EXPECT_EQ(columns.at("strain"), (std::vector{0.0, 0.01}));
+  EXPECT_EQ(columns.at("stress_pa"), (std::vector{0.0, 1e5}));
+}
+
+TEST(Compression, ItsTestGoesAsFarAndUnloadsWhereItDid) {
+  Sample::Compression course;
+  course.max_strain = 0.0;
+  kinds::compression().course(measured(), course);
+  EXPECT_DOUBLE_EQ(course.max_strain, 0.06);
+  EXPECT_EQ(course.unload_at, std::vector{0.04});
+}
+
+TEST(Compression, NoiseHasTheStatedSizeAndHalfOfItLasts) {
+  Columns columns;
+  for (int k = 0; k < 4000; ++k)
+    columns["strain"].push_back(1e-5 * k), columns["stress_pa"].push_back(0.0), columns["stress_sigma_pa"].push_back(3e3);
+  const auto stress = kinds::compression().perturbed(observation(kinds::compression(), "A", columns), 5).at("stress_pa");
+  double square = 0.0, next = 0.0;
+  for (std::size_t k = 1; k < stress.size(); ++k)
+    square += stress[k] * stress[k] / 4000.0, next += stress[k] * stress[k - 1] / 4000.0;
+  EXPECT_NEAR(std::sqrt(square), 3e3, 0.1 * 3e3);
+  EXPECT_NEAR(next / square, 0.5 * 0.7, 0.06);
+}
+
+TEST(Compression, ErrorsOfTheSimulationAreAPositiveDefiniteCovariance) {
+  const auto readings = features_of(Level::readings, measured(), curve());
+  const Eigen::MatrixXd error = kinds::compression().model_error(readings);
+  test::expect_covariance(error, readings.size());
+  // A shift of the strain at which platens meet the specimen is a larger share of a smaller strain.
+  EXPECT_GT(error(0, 0), 4.0 * error(10, 10));
+  const auto landmarks = features_of(Level::landmarks, measured(), curve());
+  test::expect_covariance(kinds::compression().model_error(landmarks), landmarks.size());
+}
+
+}  // namespace
+}  // namespace pendular::diagnosis
