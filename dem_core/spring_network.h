@@ -35,6 +35,7 @@ class SpringNetwork {
   int bottom() const { return nodes() - 2; }
   int top() const { return nodes() - 1; }
   const std::vector<NetworkSpring>& springs() const { return springs_; }
+  double radius(int node) const { return radius_[static_cast<std::size_t>(node)]; }  ///< m
 
   /// Displacement of i against j at the spring's point, m.
   Vec3 relative(const NetworkSpring& spring, const NodeVector& x) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "diagnosis/experiment_places.h"
 #include "diagnosis/leading.h"
 #include "diagnosis/next_experiments.h"
 #include "diagnosis/shrinkage.h"
@@ -141,6 +142,7 @@ Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& 
   else
     diagnosis.warnings.push_back(
         "how far the gap shrinks was not measured: no fresh runs were made, as asked");
+  diagnosis.places = places_in(experiment, plan, beads_folder, diagnosis.overlays, diagnosis.warnings);
   diagnosis.next = next_experiments(experiment, diagnosis.explanations);
   diagnosis.verdict = verdict_of(diagnosis);
   return diagnosis;

@@ -12,6 +12,7 @@
 #include "diagnosis/evidence.h"
 #include "diagnosis/experiment.h"
 #include "diagnosis/gap.h"
+#include "diagnosis/place.h"
 
 namespace pendular::diagnosis {
 
@@ -99,6 +100,7 @@ struct Diagnosis {
   std::vector<NextExperiment> next;
   std::vector<LedgerRow> ledger;
   std::vector<Overlay> overlays;
+  std::vector<Place> places;  ///< where in the specimens scans differ
   Provenance provenance;
 };
 

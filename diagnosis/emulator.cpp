@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "base/median.h"
 
@@ -15,7 +16,8 @@ namespace {
 constexpr int kDegree = 2, kExactDegree = 4;
 constexpr double kLeastRoom = 0.15;      // that a fit leaves a residual, of its variance
 constexpr double kOutlier = 3.0, kOfMedian = 1.4826;
-constexpr double kOfTheFit = 0.3;        // the fit's own variance over the scatter's
+constexpr double kOfTheFit = 0.35;       // the fit's own variance over the scatter's
+constexpr double kBeyondScatter = 2.5;   // of the scatter's variance, from which a polynomial is seen to fail
 constexpr double kDrawn = 0.35;          // share of a covariance that goes to its diagonal
 
 /// Runs of one id, less the baselines of their members.
@@ -146,6 +148,15 @@ Eigen::MatrixXd shrunk(const Eigen::MatrixXd& covariance) {
   return positive_part(drawn);
 }
 
+/// What an effect leaves beyond the scatter: all of it where it draws; else only features in which it is clearly
+/// more, since few runs do not tell a polynomial's failure from scatter.
+Eigen::MatrixXd beyond(const Eigen::MatrixXd& scatter, const Eigen::MatrixXd& left, bool draws) {
+  if (draws) return positive_part(left - scatter);
+  const Eigen::ArrayXd ratio = kBeyondScatter * scatter.diagonal().array() / left.diagonal().array().max(1e-30);
+  const Eigen::VectorXd share = (1.0 - ratio).max(0.0).sqrt();
+  return share.asDiagonal() * left * share.asDiagonal();
+}
+
 }  // namespace
 
 const Signature* Responses::find(const std::string& id) const {
@@ -164,10 +175,12 @@ Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index feature
   Responses responses;
   take_baselines(runs, features, responses);
   std::vector<Eigen::MatrixXd> scatter;
+  std::set<std::string> drawing;
   double parameters = 0.0;
   for (const auto& group : groups_of(runs, responses)) {
     Eigen::MatrixXd left;
     Signature signature = fit_group(group, features, left);
+    if (group.draws) drawing.insert(group.id);
     if (!group.draws && !group.exact) {
       scatter.push_back(left);
       parameters += group.degree();
@@ -185,7 +198,7 @@ Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index feature
   draw_in_outliers(left);
   responses.within = pairwise(left, 0.0);
   for (auto& signature : responses.signatures)
-    if (signature.draws.size() > 0) signature.draws = positive_part(signature.draws - responses.within);
+    if (signature.draws.size() > 0) signature.draws = beyond(responses.within, signature.draws, drawing.contains(signature.id));
   responses.between = pairwise(responses.offsets.rowwise() - responses.mean.transpose(), 1.0);
   return responses;
 }
@@ -213,7 +226,7 @@ Signature exact_signature(const std::string& id, const std::vector<double>& thet
 Scatter scatter_of(const Responses& responses) {
   const double members = static_cast<double>(responses.members.size());
   const Eigen::MatrixXd between = (1.0 + 1.0 / members) * responses.between;
-  const Eigen::MatrixXd within = (1.0 + kOfTheFit) * responses.within;
+  const Eigen::MatrixXd within = kOfTheFit * responses.within;
   Scatter scatter;
   scatter.covariance = shrunk(between + within);
   const Eigen::VectorXd diagonal = scatter.covariance.diagonal().cwiseMax(1e-12);

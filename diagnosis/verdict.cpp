@@ -124,6 +124,7 @@ std::string what_next(const Diagnosis& diagnosis) {
 
 std::string verdict_of(const Diagnosis& diagnosis) {
   std::string text = where(diagnosis) + " " + which(diagnosis) + how_far(diagnosis) + what_next(diagnosis);
+  for (const auto& place : diagnosis.places) text += " " + place.words;
   const auto failed = std::count_if(diagnosis.ledger.begin(), diagnosis.ledger.end(),
                                     [](const LedgerRow& row) { return row.status == "failed"; });
   if (failed > 0) text += fmt::format(" {} of {} simulations failed.", failed, diagnosis.ledger.size());

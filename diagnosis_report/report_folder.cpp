@@ -9,6 +9,7 @@
 #include "diagnosis_report/outcome_figures.h"
 #include "diagnosis_report/overlay_figures.h"
 #include "diagnosis_report/page.h"
+#include "diagnosis_report/place_figures.h"
 #include "diagnosis_report/tables.h"
 
 namespace pendular::diagnosis_report {
@@ -61,6 +62,7 @@ class Files {
 Pictures keep_figures(const Desk& desk, const Diagnosis& d, const Files& files) {
   Pictures pictures;
   files.keep_all(gap_figures(desk.display, d), pictures.where);
+  files.keep_all(place_figures(desk.display, d.places), pictures.where);
   files.keep_all(overlay_figures(desk.display, d), pictures.overlays);
   files.keep(hypothesis_figure(desk.display, d), pictures.which);
   files.keep_all(magnitude_figures(desk.display, d), pictures.which);
@@ -82,6 +84,8 @@ void write_report_folder(const Desk& desk, const Diagnosis& d) {
   for (const Table& table : {gap_table(d), share_table(d), hypothesis_table(d), noise_table(d),
                              excluded_table(d), next_table(d), ledger_table(d)})
     files.keep(table);
+  for (const auto& place : d.places)
+    write_polydata(desk.out / (file_name("place_" + place.observation) + ".vtp"), place_polydata(place));
   viz::write_report(desk.out / "report.html", page_of(d, pictures));
   write_text(desk.out / "diagnosis.json",
              to_json(d).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
