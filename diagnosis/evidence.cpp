@@ -14,7 +14,6 @@ namespace {
 constexpr int kCellsOfOne = 81, kCellsOfTwo = 11;  // of each effect's range
 constexpr int kRefined = 2, kParts = 4;            // how often cells at the peak are cut, and into how many
 constexpr double kUnknownFactors[] = {1.5, 2.5, 4.0, 7.0};  // of the noise's standard deviation
-constexpr double kLikeKnown = 0.25;  // of unknown mechanisms: as if an effect of the library acted
 constexpr double kTogether = 0.15;   // of their geometric mean, by which two effects do not add
 constexpr double kRunTogether = 0.07;  // likewise, where it was run what they do
 constexpr double kEverywhere = 0.3;  // share of a response's error that has no direction
@@ -209,8 +208,8 @@ Weighed single(const Signature& reduced, const ReducedSpace& space) {
   return {explored.hypothesis(), log_sum(beside)};
 }
 
-/// Something beside what is known, or, one time in four, something that does what a known effect would.
-Hypothesis unknown(const std::vector<Weighed>& known) {
+/// Something beside what is known, or, by chance, something that does what a known effect would.
+Hypothesis unknown(const std::vector<Weighed>& known, double like_known) {
   std::vector<double> beside, like;
   for (const auto& one : known) {
     beside.push_back(one.beside_unknown);
@@ -221,7 +220,7 @@ Hypothesis unknown(const std::vector<Weighed>& known) {
   };
   const double other = mean(beside);
   if (like.empty()) return {"unknown", other, 0.0, {}, known.front().hypothesis.misfit};
-  return {"unknown", log_sum({other + std::log(1.0 - kLikeKnown), mean(like) + std::log(kLikeKnown)}), 0.0, {},
+  return {"unknown", log_sum({other + std::log(1.0 - like_known), mean(like) + std::log(like_known)}), 0.0, {},
           known.front().hypothesis.misfit};
 }
 
@@ -260,7 +259,7 @@ std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& sign
     reduced.push_back(space.reduced(signature));
     known.push_back(single(reduced.back(), space));
   }
-  std::vector<Hypothesis> all = {unknown(known)};
+  std::vector<Hypothesis> all = {unknown(known, priors.like_known)};
   for (const auto& one : known) all.push_back(one.hypothesis);
   for (std::size_t a = 0; a < reduced.size(); ++a)
     for (std::size_t b = a + 1; b < reduced.size(); ++b) {

@@ -145,6 +145,14 @@ void set_ambiguity(const Problem& problem, const std::vector<Hypothesis>& hypoth
       diagnosis.set_probability += h.probability;
 }
 
+/// What is unknown may do to a curve what a known effect does, but hardly to thousands of displacements.
+Priors priors_of(const Comparison& readings, const Rules& rules) {
+  Priors priors = rules.priors;
+  if (std::find(readings.inputs.begin(), readings.inputs.end(), kFieldError) != readings.inputs.end())
+    priors.like_known = rules.like_known_in_fields;
+  return priors;
+}
+
 void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hypotheses, const Rules& rules,
                       const BankPlan& plan, Diagnosis& diagnosis) {
   double misfit_of_none = 0.0;
@@ -261,7 +269,8 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   diagnosis.gap = gap_table(landmarks.observed.features, simulated, landmarks.gap);
   diagnosis.noise = landmarks.noise;
   set_signatures(problem, diagnosis);
-  const auto hypotheses = weigh(readings.gap, readings.signatures, readings.together, rules.priors, Pairs::run);
+  const auto hypotheses =
+      weigh(readings.gap, readings.signatures, readings.together, priors_of(readings, rules), Pairs::run);
   set_explanations(problem, hypotheses, rules, plan, diagnosis);
   const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();
   diagnosis.nearest_signature = nearest_signature(hypotheses, directions);

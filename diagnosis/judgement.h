@@ -8,6 +8,7 @@ namespace pendular::diagnosis {
 /// Thresholds and priors, frozen on the development split (docs/blind.md).
 struct Rules {
   Priors priors;
+  double like_known_in_fields = 0.05;  ///< Priors::like_known where displacements were measured: hardly
   double in_set = 0.9;        ///< probability that an ambiguity set holds together
   double excluded = 0.01;     ///< of an effect by itself, below which it is excluded
   double separable = 9.0;     ///< Δ² below which two effects cannot be told apart

@@ -221,8 +221,8 @@ TEST(Evidence, WhatKnownRunsLeaveOutsideIsNoSurprise) {
       for (const auto& power : s.powers)
         gap.values -= power.normalized() * power.normalized().dot(gap.values);
   const double surprised = probability(weigh(gap, all), "unknown");
-  gap.outside = outside_of(gap, all, runs);
-  ASSERT_EQ(gap.outside.size(), runs.size());
+  const ReducedSpace space(gap, all);
+  for (const auto& run : runs) gap.outside.push_back(space.outside(run));
   EXPECT_GT(surprised, 0.9);
   EXPECT_LT(probability(weigh(gap, all), "unknown"), 0.5);
 }
@@ -235,7 +235,7 @@ TEST(Evidence, OutsideIsWhatResponsesDoNotSpan) {
   const Gap gap = gap_of(Eigen::VectorXd::Zero(kFeatures));
   EXPECT_EQ(ReducedSpace(gap, all).size(), 2);
   const Eigen::VectorXd value = draw(3);
-  EXPECT_NEAR(outside_of(gap, all, {value}).front(), value.tail(kFeatures - 2).squaredNorm(), 1e-9);
+  EXPECT_NEAR(ReducedSpace(gap, all).outside(value), value.tail(kFeatures - 2).squaredNorm(), 1e-9);
 }
 
 TEST(Evidence, AlikeEffectsAreNotIsolable) {

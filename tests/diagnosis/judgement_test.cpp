@@ -35,7 +35,7 @@ Problem planted(const Eigen::Vector3d& gap) {
 Experiment one_curve() {
   Experiment experiment;
   Observation curve;
-  curve.name = "A";
+  curve.name = std::string("A");  // assigned as characters, the compiler warns of an overlap that is none
   curve.columns = {{"strain", {0.0, 0.1}}, {"stress_pa", {0.0, 1.0}}};
   experiment.observations = {curve};
   experiment.uncertainty = {{"bridges.youngs_modulus_pa", 5e4}};
