@@ -83,9 +83,27 @@ void set_speed(Sample& sample, const Experiment& experiment) {
   if (simulated > stated) sample.compression = slow.compression;
 }
 
+bool is_network(const Observation& observation) {
+  return observation.kind == &kinds::bridges() && observation.words.at("use") == "simulate";
+}
+
+/// The measured bridges of a specimen that are to be simulated; empty: none.
+fs::path network_of(const Experiment& experiment, const fs::path& beads) {
+  for (const auto& observation : experiment.observations)
+    if (is_network(observation) && observation.beads == beads) return observation.file;
+  return {};
+}
+
+/// A specimen whose network was measured has it, and each bridge its own neck.
+void set_network(Condition& condition, const Experiment& experiment) {
+  condition.network = network_of(experiment, condition.beads);
+  if (!condition.network.empty()) condition.sample.bridges.stiffness = "per_bridge";
+}
+
 Condition condition_of(const Experiment& experiment, std::size_t index) {
   const Observation& observation = experiment.observations[index];
   Condition condition{experiment.sample_of(observation), observation.beads, {index}};
+  set_network(condition, experiment);
   set_course(condition.sample, observation);
   set_speed(condition.sample, experiment);
   auto& course = condition.sample.compression;
@@ -149,6 +167,7 @@ void add_series(std::vector<Condition>& all, const Experiment& experiment, std::
       changed.compression.max_strain = kSeriesStrain;
     });
     all.push_back({sample, observation.beads, {index}, row});
+    set_network(all.back(), experiment);
   }
 }
 
@@ -162,6 +181,7 @@ std::vector<Condition> conditions_of(const Experiment& experiment) {
   std::vector<Condition> tests, series;
   for (std::size_t index = 0; index < experiment.observations.size(); ++index) {
     const Kind* kind = experiment.observations[index].kind;
+    if (is_network(experiment.observations[index])) continue;
     if (kind->course) merge(tests, condition_of(experiment, index));
     if (kind == &kinds::modulus_series()) add_series(series, experiment, index);
   }

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -46,12 +48,32 @@ void move_beads(std::vector<Bead>& beads, std::uint64_t seed) {
   }
 }
 
+/// Pairs as they were measured: what has no bridge has none, undetermined ones stay candidates. `moved`: necks by
+/// their stated errors, as another measurement might have them.
+void use_network(const fs::path& path, bool moved, std::uint64_t seed, Packing& packing) {
+  for (Bridge bridge : read_bridges(path, packing.beads)) {
+    if (bridge.state == BridgeState::undetermined) bridge.state = BridgeState::candidate;
+    if (moved && bridge.diameter > 0.0)
+      bridge.diameter += bridge.sigma_diameter * random_normal(seed, effects::of_pair(bridge.i, bridge.j));
+    bridge.gap = gap(packing.beads[static_cast<std::size_t>(bridge.i)], packing.beads[static_cast<std::size_t>(bridge.j)]);
+    const auto at = std::lower_bound(
+        packing.bridges.begin(), packing.bridges.end(), bridge,
+        [](const Bridge& a, const Bridge& b) { return std::pair(a.i, a.j) < std::pair(b.i, b.j); });
+    if (at != packing.bridges.end() && at->i == bridge.i && at->j == bridge.j)
+      *at = bridge;
+    else if (bridge.state == BridgeState::bridge)
+      packing.bridges.insert(at, bridge);
+  }
+}
+
 /// The measured packing that the effects of `changed` make into the likeliest specimen where they hold.
 Packing measured_packing(const Condition& condition, int member, const Sample& changed) {
   std::vector<Bead> beads = read_beads(condition.beads);
   check_beads_of(condition, beads);
   if (member > 1 && member < kFirstFresh) move_beads(beads, static_cast<std::uint64_t>(member));
   Packing packing = packing_of(effects::actual_beads(std::move(beads), changed), condition.sample);
+  if (!condition.network.empty())
+    use_network(condition.network, member > 1 && member < kFirstFresh, static_cast<std::uint64_t>(member), packing);
   packing.provenance = {program_version(),
                         fmt::format("pendular diagnose: member {}", member),
                         static_cast<std::uint64_t>(member),
@@ -75,8 +97,9 @@ sweep::PackingSource beads_of_member(const Condition& condition, int member, con
   const Packing packing = measured_packing(condition, member, changed);
   const auto& s = condition.sample;
   const std::string name = sha256(
-      fmt::format("closed {} {} {} {} {} {}{}", sha256_of(condition.beads), member, s.specimen.diameter,
-                  s.specimen.height, s.bridges.cutoff, s.beads.diameter, measured_otherwise(changed)));
+      fmt::format("closed {} {} {} {} {} {}{}{}", sha256_of(condition.beads), member, s.specimen.diameter,
+                  s.specimen.height, s.bridges.cutoff, s.beads.diameter, measured_otherwise(changed),
+                  condition.network.empty() ? "" : fmt::format(" {}", sha256_of(condition.network))));
   const fs::path path = folder / (name.substr(0, 16) + ".vtp");
   make_folder(folder);
   if (!fs::exists(path)) write_packing(path, packing);

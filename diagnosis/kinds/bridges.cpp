@@ -52,6 +52,9 @@ void read(Observation& observation, const CsvTable& table) {
 }
 
 void check(const Sample& believed, Observation& observation, std::vector<std::string>& warnings) {
+  if (observation.words.at("use") == "simulate" && observation.numbers.at("strain") > 0.0)
+    bad_input("{}: found use = \"simulate\" of a scan at strain {:.4g}, expected one at rest (strain = 0)",
+              observation.file.string(), observation.numbers.at("strain"));
   const auto& joined = observation.column("joined");
   const auto determined =
       std::count_if(joined.begin(), joined.end(), [](double one) { return std::isfinite(one); });
@@ -154,6 +157,7 @@ void add_necks(FeatureList& list, const Columns& columns) {
 
 std::vector<Feature> landmarks(const Observation& observation, const Columns& columns) {
   FeatureList list(observation, Scale::network);
+  if (observation.words.at("use") == "simulate") return list.take();  // simulations have it, by construction
   const auto &cosine = columns.at("cosine"), &height = columns.at("height"), &radius = columns.at("radius"),
              &separation = columns.at("separation_um");
   std::vector<double> sorted = separation;

@@ -32,7 +32,7 @@ std::string refusal(const std::string& what, const std::string& by) {
 }  // namespace
 
 TEST(Split, ReadsEveryCommittedFile) {
-  for (const char* name : {"development", "sealed", "small"}) {
+  for (const char* name : {"development2", "sealed2", "sealed", "small"}) {
     const Split split =
         read_split(fs::path(PENDULAR_SOURCE_DIR) / "samples/blind" / (std::string(name) + ".toml"), {});
     EXPECT_EQ(split.name, name);
@@ -44,8 +44,8 @@ TEST(Split, ReadsEveryCommittedFile) {
 
 TEST(Split, DevelopmentAndSealedShareNoPackingAndNoSeed) {
   const fs::path samples = fs::path(PENDULAR_SOURCE_DIR) / "samples/blind";
-  const Split development = read_split(samples / "development.toml", {});
-  const Split sealed = read_split(samples / "sealed.toml", {});
+  const Split development = read_split(samples / "development2.toml", {});
+  const Split sealed = read_split(samples / "sealed2.toml", {});
   EXPECT_NE(development.seed, sealed.seed);
   for (const auto& a : development.packings)
     for (const auto& b : sealed.packings) EXPECT_NE(a.seed, b.seed);

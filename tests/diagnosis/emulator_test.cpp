@@ -66,7 +66,9 @@ TEST(Emulator, ScatterIsThatOfTheNoise) {
   EXPECT_NEAR(responses.between(0, 1), 0.09, 0.05);
   const auto scatter = scatter_of(responses);
   EXPECT_GT(scatter.freedom, 30.0);
-  EXPECT_GT(scatter.covariance(0, 0), responses.between(0, 0) + responses.within(0, 0));
+  // The noise of a run is already in what members differ by; the fit adds no more than a part of it.
+  EXPECT_GT(scatter.covariance(0, 0), responses.between(0, 0));
+  EXPECT_LT(scatter.covariance(0, 0), 1.05 * responses.between(0, 0) + responses.within(0, 0));
 }
 
 TEST(Emulator, WhatDrawsDifferByIsTheEffectsOwnAndNoScatter) {
@@ -92,7 +94,7 @@ TEST(Emulator, WhatDrawsDifferByIsTheEffectsOwnAndNoScatter) {
   EXPECT_GT(found.draws(0, 1), 0.2);  // 0.4, drawn to the diagonal
   EXPECT_LT(found.draws(0, 1), 0.48);
   EXPECT_NEAR(found.at(0.3)[0], 0.6, 0.1);
-  EXPECT_EQ(responses.find("steady")->draws.size(), 0);
+  EXPECT_LT(responses.find("steady")->draws.norm(), 0.01);
   EXPECT_LT(responses.within.norm(), 0.01);  // of the draws nothing is in the scatter
 }
 
