@@ -25,7 +25,7 @@ std::pair<double, double> range_of(std::vector<double> values) {
 
 std::string words_of(const Place& place) {
   if (place.count() == 0)
-    return fmt::format("Nowhere among {} beads do experiment and simulation part beyond noise.", place.ids.size());
+    return fmt::format("Nowhere among {} beads do experiment and the simulation as believed part beyond noise.", place.ids.size());
   Vec3 low = place.rest.front(), high = low;
   for (const Vec3& p : place.rest) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const Vec3 middle = 0.5 * (low + high);
@@ -43,7 +43,7 @@ std::string words_of(const Place& place) {
   const auto [bottom, top] = range_of(heights);
   const auto [inner, outer] = range_of(distances);
   std::string text = fmt::format(
-      "Experiment and simulation part about {} of {} beads, at {:.2f} to {:.2f} of the height and {:.2f} to {:.2f} "
+      "Experiment and the simulation as believed part about {} of {} beads, at {:.2f} to {:.2f} of the height and {:.2f} to {:.2f} "
       "of the radius",
       place.count(), place.ids.size(), bottom, top, inner, outer);
   if (std::fabs(change) < 2.0 * sigma) return text + "; whether they are softer or stiffer there cannot be told.";

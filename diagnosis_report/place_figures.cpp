@@ -46,7 +46,7 @@ viz::BeadMap map_of(const Place& place) {
 
 Drawn misfit_figure(const viz::Display& display, const Place& place) {
   viz::BeadMap map = map_of(place);
-  map.title = "Where experiment and simulation part";
+  map.title = "Where experiment and the simulation as believed part";
   map.quantity = "misfit over noise";
   map.values = place.misfit.value;
   map.low = 1.0;
