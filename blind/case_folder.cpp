@@ -53,6 +53,8 @@ ordered_json sealed_json(const Split& split, const CasePlan& plan, const std::st
                          {"theta", plan.mechanism_theta},
                          {"unit", mechanism.unit}};
   }
+  json["hidden"] = plan.hidden;
+  json["scanned"] = plan.scanned;
   json["law"] = plan.law;
   if (!plan.engine.empty()) json["engine"] = {{"name", plan.engine}, {"program", engine}};
   json["packing"] = plan.packing + 1;

@@ -14,7 +14,8 @@
 namespace pendular::blind {
 namespace {
 
-constexpr double kWeakest = 0.2;  // of an effect's range; below it nothing can be told
+constexpr double kWeakest = 0.2;  // of an effect's range, where the split does not say from where it is seen
+constexpr double kHidden = 0.1;   // of the single effects that could be: below what can be seen
 constexpr double kCurveAlone = 0.15, kWithNetwork = 0.20, kWithSecond = 0.25;  // shares of the cases
 constexpr std::size_t kNoEffectEvery = 3;  // so many cases of another engine
 constexpr double kFarthestOffset = 2.0;    // of a believed value that is not deliberately wrong, in its sd
@@ -80,6 +81,13 @@ double draw_theta(const effects::Effect& effect, Dice& dice) {
   const double size = dice.between(kWeakest, 1.0);
   if (effect.bank_from >= 0.0) return effect.bank_from + size * (effect.bank_to - effect.bank_from);
   return size * (dice.chance(0.5) ? effect.bank_from : effect.bank_to);
+}
+
+/// From where the effect is seen to the end of the bank, or, hidden, from zero to there.
+double draw_theta(const effects::Effect& effect, double seen_from, bool hidden, Dice& dice) {
+  const double end = effect.bank_from < 0.0 && dice.chance(0.5) ? effect.bank_from : effect.bank_to;
+  const double seen = std::min(seen_from, std::fabs(end));
+  return std::copysign(hidden ? dice.between(0.0, seen) : dice.between(seen, std::fabs(end)), end);
 }
 
 /// Draws the truth of cases one after the other, so that effects, mechanisms, wrong beliefs and laws take
@@ -156,7 +164,13 @@ class Truths {
     while (plan.effects.size() < count) {
       const auto* effect = effects_.draw();
       if (!plan.engine.empty() && !has_effect(find_engine(plan.engine, "split"), effect->id)) continue;
-      plan.effects.emplace(effect->id, draw_theta(*effect, dice_));
+      const auto seen = split_.seen_from.find(effect->id);
+      if (seen == split_.seen_from.end()) {
+        plan.effects.emplace(effect->id, draw_theta(*effect, dice_));
+        continue;
+      }
+      plan.hidden = count == 1 && dice_.chance(kHidden);
+      plan.effects.emplace(effect->id, draw_theta(*effect, seen->second, plan.hidden, dice_));
     }
   }
   void add_mechanism(CasePlan& plan) {

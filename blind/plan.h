@@ -16,6 +16,7 @@ struct CasePlan {
   std::uint64_t seed = 1;                 ///< of all that is random in it
   std::string salt;                       ///< so that its sealed file cannot be guessed from its hash
   std::map<std::string, double> effects;  ///< of the library
+  bool hidden = false;                    ///< its effect is too small to be seen (Split::seen_from)
   std::string mechanism;                  ///< of outside of it; empty: none
   double mechanism_theta = 0.0;
   std::map<std::string, double> offsets;  ///< true less believed value, in its sd, by dotted key

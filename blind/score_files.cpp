@@ -56,6 +56,15 @@ ordered_json json_of(const MagnitudeScore& magnitude) {
           {"covered_by_90", json_of(magnitude.covered)}};
 }
 
+ordered_json json_of(const Bars& bars) {
+  return {{"naming", json_of(bars.naming)},
+          {"single_effects_first", json_of(bars.single_first)},
+          {"pairs_in_set", json_of(bars.pairs_in_set)},
+          {"outside_flagged", json_of(bars.flagged)},
+          {"outside_confidently_misnamed", json_of(bars.misnamed)},
+          {"magnitude", json_of(bars.magnitude)}};
+}
+
 ordered_json json_of(const Scores& scores, const Provenance& provenance) {
   ordered_json json;
   json["true_effects_left_out"] = scores.without_truth;
@@ -85,6 +94,12 @@ ordered_json json_of(const Scores& scores, const Provenance& provenance) {
                        {"modulus_retuned_median", json_of(scores.shrinkage.retuned)},
                        {"wrong_effect_median", json_of(scores.shrinkage.wrong_effect)},
                        {"above_retuned_median", json_of(scores.shrinkage.above_retuned)}};
+  json["without_scan"] = json_of(scores.without_scan);
+  json["with_scan"] = json_of(scores.with_scan);
+  json["other_engine"] = {{"without_scan", json_of(scores.other_engine_without_scan)},
+                          {"with_scan", json_of(scores.other_engine_with_scan)}};
+  json["hidden"] = {{"none_or_effect_in_set", json_of(scores.hidden.allowed)},
+                    {"confidently_misnamed", json_of(scores.hidden.misnamed)}};
   json["provenance"] = to_json(provenance);
   return json;
 }
@@ -133,6 +148,35 @@ std::string row(const std::string& what, const std::string& found, const std::st
   return fmt::format("| {} | {} | {} |\n", what, found, aim);
 }
 
+/// What is promised, by what was observed.
+std::string bars_table(const Scores& s) {
+  const Bars* columns[] = {&s.without_scan, &s.with_scan, &s.other_engine_without_scan,
+                           &s.other_engine_with_scan};
+  std::string text =
+      "| | no scan | aim | with a scan | aim | other engine, no scan | other engine, with a scan |\n"
+      "|---|---|---|---|---|---|---|\n";
+  const auto line = [&](const char* what, const char* aim, const char* aim_with_scan, const auto& found) {
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", what, found(*columns[0]), aim,
+                        found(*columns[1]), aim_with_scan, found(*columns[2]), found(*columns[3]));
+  };
+  line("right answer in the set", "≥ 90 %", "≥ 95 %", [](const Bars& b) { return words(b.naming.in_set); });
+  line("mean size of the set", "≤ 2.5", "≤ 1.6", [](const Bars& b) { return number(b.naming.set_size); });
+  line("most probable is right, single effects", "≥ 65 %", "≥ 85 %",
+       [](const Bars& b) { return words(b.single_first); });
+  line("pairs in the set", "≥ 60 %", "≥ 80 %", [](const Bars& b) { return words(b.pairs_in_set); });
+  line("outside mechanisms flagged", "≥ 85 %", "≥ 95 %", [](const Bars& b) { return words(b.flagged); });
+  line("outside mechanisms misnamed above 0.9", "≤ 2 %", "≤ 1 %", [](const Bars& b) { return words(b.misnamed); });
+  line("θ within its 90 % interval", "86–94 %", "86–94 %",
+       [](const Bars& b) { return words(b.magnitude.covered); });
+  line("median relative error of θ", "≤ 15 %", "≤ 8 %",
+       [](const Bars& b) { return percent(b.magnitude.median_relative_error); });
+  text += fmt::format(
+      "\nEffects too small to be seen, which count nowhere else: `none` or the effect in the set {}; something else "
+      "above 0.9 {}.\n",
+      words(s.hidden.allowed), words(s.hidden.misnamed));
+  return text;
+}
+
 std::string aims_table(const Scores& s) {
   std::string text = "| score | found | aim |\n|---|---|---|\n";
   text += row("right answer in the set", words(s.all.in_set), "≥ 95 %");
@@ -179,7 +223,7 @@ std::string markdown(const std::vector<Verdict>& verdicts, const Scores& s) {
   std::string text =
       fmt::format("# Blind check{}\n\n{} cases, {} without a diagnosis (they count as wrong). ",
                   s.without_truth ? ", true effects left out of the library" : "", s.cases, s.failed);
-  text += "Intervals in brackets are 95 %, by Wilson.\n\n" + aims_table(s) + "\n";
+  text += "Intervals in brackets are 95 %, by Wilson.\n\n" + bars_table(s) + "\n" + aims_table(s) + "\n";
   text += naming_table("stratum", s.by_stratum, [](Stratum stratum) { return to_string(stratum); }) + "\n";
   text += naming_table("right answer", s.by_answer, [](const std::string& id) { return "`" + id + "`"; });
   text += "\n| probability of the most probable | mean | right |\n|---|---|---|\n";

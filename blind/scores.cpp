@@ -100,6 +100,29 @@ ShrinkageScore shrinkage(const std::vector<Verdict>& verdicts) {
   return {withheld.size(), median(withheld), median(retuned), median(wrong), median(above)};
 }
 
+Bars bars(const std::vector<Verdict>& verdicts) {
+  Bars bars;
+  bars.naming = naming(verdicts);
+  for (const auto& verdict : verdicts) {
+    if (verdict.truth.effects.size() == 1) bars.single_first.count(verdict.exact());
+    if (verdict.truth.effects.size() == 2) bars.pairs_in_set.count(verdict.in_set(verdict.answer));
+    if (verdict.truth.mechanism.empty()) continue;
+    bars.flagged.count(verdict.in_set("unknown") || verdict.exact());
+    bars.misnamed.count(verdict.confidently_wrong());
+  }
+  bars.magnitude = magnitudes(verdicts);
+  return bars;
+}
+
+HiddenScore hidden_score(const std::vector<Verdict>& verdicts) {
+  HiddenScore found;
+  for (const auto& verdict : verdicts) {
+    found.allowed.count(verdict.in_set("none") || verdict.in_set(verdict.answer));
+    found.misnamed.count(verdict.confidently_wrong() && verdict.top() != "none");
+  }
+  return found;
+}
+
 void score_unknown(Scores& scores, const std::vector<Verdict>& verdicts) {
   std::vector<double> outside, inside;
   for (const auto& verdict : verdicts) {
@@ -126,10 +149,18 @@ double brier_score(const Verdict& verdict) {
   return sum;
 }
 
-Scores score(const std::vector<Verdict>& verdicts, bool without_truth) {
+Scores score(const std::vector<Verdict>& all, bool without_truth) {
   Scores scores;
   scores.without_truth = without_truth;
-  scores.cases = verdicts.size();
+  scores.cases = all.size();
+  const auto verdicts = those(all, [](const Verdict& v) { return !v.truth.hidden; });
+  scores.hidden = hidden_score(those(all, [](const Verdict& v) { return v.truth.hidden; }));
+  for (const bool scanned : {false, true}) {
+    const auto like = [&](const Verdict& v) { return v.truth.scanned == scanned; };
+    const auto other = [&](const Verdict& v) { return like(v) && v.truth.stratum == Stratum::other_engine; };
+    (scanned ? scores.with_scan : scores.without_scan) = bars(those(verdicts, like));
+    (scanned ? scores.other_engine_with_scan : scores.other_engine_without_scan) = bars(those(verdicts, other));
+  }
   scores.all = naming(verdicts);
   std::vector<Verdict> priors;
   for (const auto& verdict : verdicts) {

@@ -42,6 +42,22 @@ struct ShrinkageScore {
   double withheld = 0.0, retuned = 0.0, wrong_effect = 0.0, above_retuned = 0.0;
 };
 
+/// What is promised, of cases with or without a scan.
+struct Bars {
+  Naming naming;
+  Proportion single_first;   ///< one effect was withheld, and it is the most probable
+  Proportion pairs_in_set;
+  Proportion flagged;        ///< outside mechanisms: `unknown` is in the set or first
+  Proportion misnamed;       ///< outside mechanisms: something else above 0.9
+  MagnitudeScore magnitude;  ///< of single effects
+};
+
+/// Cases whose effect is too small to be seen, which count nowhere else.
+struct HiddenScore {
+  Proportion allowed;   ///< `none` or the effect is in the set
+  Proportion misnamed;  ///< something else has a probability above 0.9
+};
+
 struct Scores {
   bool without_truth = false;
   std::size_t cases = 0, failed = 0;
@@ -58,9 +74,12 @@ struct Scores {
   std::vector<ReliabilityBin> reliability;
   MagnitudeScore magnitude, magnitude_where_named;
   ShrinkageScore shrinkage;
+  Bars without_scan, with_scan;                              ///< of all engines
+  Bars other_engine_without_scan, other_engine_with_scan;  ///< of the stratum other_engine alone
+  HiddenScore hidden;
 };
 
-Scores score(const std::vector<Verdict>& verdicts, bool without_truth);
+Scores score(const std::vector<Verdict>& all, bool without_truth);
 
 /// −ln P(truth) and Brier score of one case.
 double log_score(const Verdict& verdict);

@@ -1,6 +1,7 @@
 #include "blind/split.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "base/nearest.h"
@@ -8,6 +9,7 @@
 #include "base/toml_place.h"
 #include "blind/engine.h"
 #include "diagnosis/believed.h"
+#include "effects/list.h"
 
 namespace pendular::blind {
 namespace {
@@ -110,6 +112,16 @@ void read_shares(Split& split, const TomlPlace& section) {
   for (double& share : split.shares) share /= sum;
 }
 
+void read_seen_from(Split& split, const TomlPlace& section) {
+  std::vector<std::string> known;
+  for (const auto& effect : effects::all_effects()) known.push_back(effect.id);
+  read_section(section, known, [&](const std::string& key, const auto& place) {
+    const auto& effect = effects::find_effect(key, place.str());
+    const double most = std::max(std::fabs(effect.bank_from), std::fabs(effect.bank_to));
+    split.seen_from[key] = number_between(place, 0.0, most);
+  });
+}
+
 SharedPacking packing_at(const TomlPlace& section) {
   SharedPacking packing;
   const std::vector<std::string> known = {"seed", "height_um", "short_height_um", "short_youngs_modulus_pa",
@@ -186,10 +198,12 @@ Split read_split(const fs::path& path, std::optional<std::uint64_t> seed) {
       read_uncertainty(split, place);
     else if (key == "strata")
       read_shares(split, place);
+    else if (key == "seen_from")
+      read_seen_from(split, place);
     else if (key == "packing")
       read_packings(split, place);
     else
-      unknown_key(place, {"split", "test", "uncertainty", "strata", "packing"});
+      unknown_key(place, {"split", "test", "uncertainty", "strata", "seen_from", "packing"});
   }
   if (sample.empty()) bad_input("{}: split.sample is missing, expected a sample file", file);
   split.sample = read_sample(sample);

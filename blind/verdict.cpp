@@ -121,6 +121,7 @@ Truth read_truth(const fs::path& sealed) {
     if (read.contains("engine")) truth.law = read["engine"].at("name").get<std::string>();
     if (truth.stratum == Stratum::wrong_belief) truth.wrong_belief = farthest_belief(read);
     truth.packing = read.at("packing").get<std::size_t>();
+    truth.hidden = read.value("hidden", false), truth.scanned = read.value("scanned", false);
     return truth;
   });
 }

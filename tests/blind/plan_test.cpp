@@ -84,6 +84,27 @@ TEST(Plan, MagnitudesLieInTheUpperPartOfTheirRanges) {
     }
 }
 
+TEST(Plan, MagnitudesGoFromWhereTheyAreSeenAndATenthIsHidden) {
+  Split split = sealed_split();
+  split.cases = 2000;
+  split.seen_from = {{"platen_friction", 0.13}, {"voxel_scale", 0.03}};
+  int seen = 0, hidden = 0;
+  for (const auto& plan : plan_of(split)) {
+    EXPECT_TRUE(!plan.hidden || plan.effects.size() == 1);
+    for (const auto& [id, theta] : plan.effects) {
+      const auto from = split.seen_from.find(id);
+      if (from == split.seen_from.end()) {
+        EXPECT_FALSE(plan.hidden) << id;
+        continue;
+      }
+      EXPECT_EQ(std::fabs(theta) < from->second, plan.hidden) << id << " " << theta;
+      EXPECT_LE(theta, effects::find_effect(id, "test").bank_to);
+      if (plan.effects.size() == 1) ++(plan.hidden ? hidden : seen);
+    }
+  }
+  EXPECT_NEAR(hidden, 0.1 * (seen + hidden), 4.0 * std::sqrt(0.09 * (seen + hidden)));
+}
+
 TEST(Plan, ObservationsGoFromACurveAloneToScansUnderLoad) {
   Split split = sealed_split();
   split.cases = 2000;

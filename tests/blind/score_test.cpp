@@ -17,11 +17,13 @@ using pendular::test::ScratchFolder;
 
 /// A sealed case with its hash, as `blind make` leaves it.
 std::string seal(const fs::path& root, const std::string& name, const std::string& stratum,
-                 const std::string& answer, const json& effects, const std::string& mechanism = "") {
+                 const std::string& answer, const json& effects, const std::string& mechanism = "",
+                 const json& more = json::object()) {
   json truth = {{"case", name},   {"stratum", stratum}, {"answer", answer},
                 {"law", "paper"}, {"effects", effects}, {"packing", 1}};
   truth["beliefs"]["contact.friction"] = {{"off_by_sigmas", -2.0}};
   if (!mechanism.empty()) truth["mechanism"] = {{"id", mechanism}, {"theta", 0.5}};
+  truth.update(more);
   make_folder(root / "sealed");
   write_text(root / "sealed" / (name + ".json"), truth.dump());
   return name + "," + sha256_of(root / "sealed" / (name + ".json")) + "\n";
@@ -93,6 +95,28 @@ TEST_F(Score, CountsNames) {
   EXPECT_DOUBLE_EQ(s.all.set_size, 8.0 / 6.0);
   EXPECT_EQ(s.by_stratum.at(Stratum::library).exact.hits, 1u);
   EXPECT_EQ(s.by_answer.at("unknown").in_set.hits, 1u);
+}
+
+TEST_F(Score, HiddenEffectsCountByThemselves) {
+  const fs::path root = folder / "hidden";
+  const json tilt = {{{"id", "platen_tilt"}, {"theta", 0.01}}};
+  std::string seals = "case,sha256\n";
+  for (const char* name : {"h1", "h2", "h3"})
+    seals += seal(root, name, "library", "platen_tilt", tilt, "", {{"hidden", true}, {"scanned", true}});
+  seals += seal(root, "s1", "library", "platen_tilt", tilt, "", {{"hidden", false}, {"scanned", true}});
+  write_text(root / "seals.csv", seals);
+  report(reports / "h1", {claim("none", 0.9), claim("unknown", 0.1)}, {"none"});
+  report(reports / "h2", {claim("platen_tilt", 0.95), claim("none", 0.05)}, {"platen_tilt"});
+  report(reports / "h3", {claim("grit", 0.95), claim("none", 0.05)}, {"grit"});
+  report(reports / "s1", {claim("platen_tilt", 0.95, 0.011, 0.009, 0.012), claim("none", 0.05)}, {"platen_tilt"});
+  const Scores s = score(verdicts(open_seals(root), reports), false);
+  EXPECT_EQ(s.hidden.allowed.of, 3u);
+  EXPECT_EQ(s.hidden.allowed.hits, 2u);
+  EXPECT_EQ(s.hidden.misnamed.hits, 1u);
+  EXPECT_EQ(s.all.in_set.of, 1u);
+  EXPECT_EQ(s.with_scan.single_first.hits, 1u);
+  EXPECT_EQ(s.with_scan.magnitude.covered.hits, 1u);
+  EXPECT_EQ(s.without_scan.naming.in_set.of, 0u);
 }
 
 TEST_F(Score, AveragesLogAndBrierScores) {
