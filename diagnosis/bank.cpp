@@ -7,6 +7,7 @@
 #include "diagnosis/believed.h"
 #include "diagnosis/contact_features.h"
 #include "diagnosis/funicular.h"
+#include "diagnosis/law_readings.h"
 #include "diagnosis/specimens.h"
 #include "effects/list.h"
 
@@ -15,7 +16,9 @@ namespace {
 
 constexpr int kGenerated = 6, kMeasured = 12;  // members of an ensemble
 constexpr int kDraws = 3;                      // of effects that draw, at each magnitude
+constexpr int kFiner = 2;  // magnitudes of effects that do not draw, over those of others
 constexpr int kMoreOfScans = 2;  // members and draws of tests that end at a scan, over those of others
+constexpr int kOfALaw = 4;  // members that are run with the other reading of a law
 constexpr double kMostBeads = 2000.0, kBankBeads = 1500.0;
 constexpr double kAbout = 1.5;  // of a magnitude that beads show, the largest in the bank
 constexpr double kModulusShare = 0.05, kFractionSd = 0.01;  // of believed inputs of which nothing is stated
@@ -48,7 +51,7 @@ std::vector<double> magnitudes_of(const effects::Effect& effect, int levels, con
     return found;
   }
   const bool both = effect.bank_from < 0.0 && effect.bank_to > 0.0;
-  const int count = both ? std::max(2, levels - 1) : std::max(1, levels);
+  const int count = both ? std::max(2, 2 * levels / 3) : std::max(1, levels);
   for (int k = 1; k <= count; ++k) {
     const double share = static_cast<double>(k) / count;
     if (both && (k == count || levels > 2)) found.push_back(share * effect.bank_from);
@@ -106,11 +109,14 @@ class Planner {
       if (sd <= 0.0) continue;
       // A packing denser than stated may not exist.
       const bool dense = key == "specimen.volume_fraction";
-      for (double sds : {-2.0, dense ? -1.0 : 2.0}) {
+      for (double sds : dense ? std::vector<double>{-2.0, -1.0} : std::vector<double>{-2.0, -1.0, 1.0, 2.0}) {
         const int member = 1 + turn++ % members_;
         add({member, key, sds, !scaled_, draw_seed(member, 0), false, {{key, sds}}});
       }
     }
+    for (const auto& reading : law_readings())
+      for (int member = 1; member <= kOfALaw; ++member)
+        add({member, reading.id, 1.0, !scaled_, draw_seed(member, 0), false, {{reading.id, 1.0}}});
     return std::move(plan_);
   }
 
@@ -118,7 +124,8 @@ class Planner {
   void add_effect(const effects::Effect& effect, bool scanned) {
     const int draws = effect.draws ? kDraws : 1;
     int turn = 0;
-    for (double theta : magnitudes_of(effect, options_.levels, experiment_))
+    const int levels = effect.draws ? options_.levels : kFiner * options_.levels;
+    for (double theta : magnitudes_of(effect, levels, experiment_))
       for (int draw = 0; draw < (effect.draws && scanned ? kMoreOfScans : 1) * draws; ++draw) {
         const int member = 1 + turn++ % members_;
         add({member, effect.id, theta, !scaled_, draw_seed(member, draw), draw >= draws, {{effect.id, theta}}});
@@ -141,7 +148,9 @@ Sample changed_condition(const Experiment& experiment, const Condition& conditio
                          double size) {
   return changed_sample(condition.sample, [&](Sample& sample) {
     for (const auto& [id, value] : changes) {
-      if (!is_effect(id))
+      if (const LawReading* reading = find_law_reading(id))
+        reading->other(sample);
+      else if (!is_effect(id))
         set_sample_key(sample, id, moved(experiment, condition.sample, id, value));
       else if (value != 0.0)
         sample.effects[id] = effects::find_effect(id, "diagnosis").of_the_ends ? size * value : value;

@@ -12,7 +12,7 @@
 namespace pendular::diagnosis {
 
 /// What is changed in a simulation: magnitudes of effects by their ids, believed inputs by their dotted keys
-/// in standard deviations.
+/// in standard deviations, other readings of the law (LawReading) by theirs with 1.
 using Changes = std::map<std::string, double>;
 
 /// A condition's sample with some changes. A believed input that an observation sets itself changes by the
@@ -37,7 +37,7 @@ struct DesignPoint {
 };
 
 struct BankOptions {
-  int levels = 3;                   ///< magnitudes of each effect
+  int levels = 3;                   ///< magnitudes of each effect that draws; twice as many of the others
   std::set<std::string> leave_out;  ///< effects that are not considered
   int runs = 96;                    ///< most that are made at the leading explanations (leading_points())
 };
@@ -61,10 +61,11 @@ struct BankPlan {
   }
 };
 
-/// Baselines of every member; each effect at thirds of its range (in both directions where it has two; of
-/// errors that the tables of beads show by themselves at thirds of one and a half of that) and
-/// each believed input at two standard deviations to both sides, on members in turn. Effects that draw are
-/// drawn three times at each magnitude. Tests that end at a scan are short: of them there are twice as many
+/// Baselines of every member; each effect at sixths of its range (in both directions where it has two, then at
+/// quarters; of errors that the tables of beads show by themselves at parts of one and a half of that) and
+/// each believed input at one and two standard deviations to both sides, on members in turn; other readings of the law on
+/// four members. Effects that draw are
+/// drawn three times at thirds of their range. Tests that end at a scan are short: of them there are twice as many
 /// members and draws. Specimens of more than 2,000 beads that were not measured get a smaller one of the same
 /// shape, beside baselines of their own size. Effects that only change what instruments read need no runs.
 /// Leaving an effect out changes no other run.

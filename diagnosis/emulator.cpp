@@ -148,6 +148,20 @@ Eigen::MatrixXd shrunk(const Eigen::MatrixXd& covariance) {
   return positive_part(drawn);
 }
 
+/// Weighs what a fit left so that its mean square is the least-squares slope of its squares over θ², at the
+/// largest θ: what draws differ by grows with θ, the scatter does not. Returns the scatter's part of it.
+double growth(const Group& group, Eigen::MatrixXd& left) {
+  const auto runs = static_cast<double>(group.theta.size());
+  double squares = 0.0, fourths = 0.0;
+  for (const double theta : group.theta) {
+    const double share = std::pow(theta / group.scale(), 2);
+    squares += share / runs, fourths += share * share / runs;
+  }
+  for (Eigen::Index r = 0; r < left.rows(); ++r)
+    left.row(r) *= std::fabs(group.theta[static_cast<std::size_t>(r)]) / group.scale() / std::sqrt(fourths);
+  return squares / fourths;
+}
+
 /// What an effect leaves beyond the scatter: all of it where it draws; else only features in which it is clearly
 /// more, since few runs do not tell a polynomial's failure from scatter.
 Eigen::MatrixXd beyond(const Eigen::MatrixXd& scatter, const Eigen::MatrixXd& left, bool draws) {
@@ -176,6 +190,7 @@ Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index feature
   take_baselines(runs, features, responses);
   std::vector<Eigen::MatrixXd> scatter;
   std::set<std::string> drawing;
+  std::map<std::string, double> scatters_by;  // of what is left at the largest magnitude, in units of the scatter
   double parameters = 0.0;
   for (const auto& group : groups_of(runs, responses)) {
     Eigen::MatrixXd left;
@@ -186,10 +201,9 @@ Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index feature
       parameters += group.degree();
     }
     if (!group.exact) {
-      for (Eigen::Index r = 0; r < left.rows(); ++r)
-        left.row(r) /= std::fabs(group.theta[static_cast<std::size_t>(r)]) / group.scale();
-      signature.draws = shrunk(pairwise(left, 0.0));
       signature.drawn_at = group.scale();
+      scatters_by[signature.id] = growth(group, left);
+      signature.draws = shrunk(pairwise(left, 0.0));
     }
     responses.signatures.push_back(std::move(signature));
   }
@@ -198,7 +212,9 @@ Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index feature
   draw_in_outliers(left);
   responses.within = pairwise(left, 0.0);
   for (auto& signature : responses.signatures)
-    if (signature.draws.size() > 0) signature.draws = beyond(responses.within, signature.draws, drawing.contains(signature.id));
+    if (signature.draws.size() > 0)
+      signature.draws = beyond(scatters_by.at(signature.id) * responses.within, signature.draws,
+                               drawing.contains(signature.id));
   responses.between = pairwise(responses.offsets.rowwise() - responses.mean.transpose(), 1.0);
   return responses;
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kCellsOfOne = 81, kCellsOfTwo = 11;  // of each effect's range
 constexpr int kRefined = 2, kParts = 4;            // how often cells at the peak are cut, and into how many
-constexpr double kUnknownFactors[] = {1.5, 2.5, 4.0, 7.0};  // of the noise's standard deviation
+constexpr double kUnknownFactors[] = {1.0, 1.5, 2.5, 4.0, 7.0};  // of the noise's standard deviation
 constexpr double kTogether = 0.15;   // of their geometric mean, by which two effects do not add
 constexpr double kRunTogether = 0.07;  // likewise, where it was run what they do
 constexpr double kEverywhere = 0.3;  // share of a response's error that has no direction
@@ -187,11 +187,14 @@ struct Weighed {
   double beside_unknown = 0.0;  // logarithm of the evidence with wider noise
 };
 
-/// Mean over the widths of the noise.
+/// Mean over the widths of the noise within the span and outside it, of which at least one is larger: what is
+/// unknown may look like the known, or like nothing that is known.
 double beside_unknown(const ReducedSpace& space, const ReducedSpace::Fit& fit) {
   std::vector<double> terms;
-  for (double factor : kUnknownFactors) terms.push_back(space.widened(fit, factor));
-  return log_sum(terms) - std::log(static_cast<double>(std::size(kUnknownFactors)));
+  for (double within : kUnknownFactors)
+    for (double outside : kUnknownFactors)
+      if (within > 1.0 || outside > 1.0) terms.push_back(space.widened(fit, within, outside));
+  return log_sum(terms) - std::log(static_cast<double>(terms.size()));
 }
 
 Weighed none(const ReducedSpace& space) {

@@ -44,7 +44,7 @@ enum class Pairs { all, run };
 /// responses are taken to add to 0.15 of their geometric mean; to half of that where they were run together.
 ///
 /// `unknown` is something beside what is known: none or a single effect leaves a residual 1.5, 2.5, 4 or 7 times
-/// as large as noise does, within the span and outside it; or (Priors::like_known) something that does what a
+/// as large as noise does, within the span, outside it, or both; or (Priors::like_known) something that does what a
 /// known effect would do.
 std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& signatures,
                               const std::vector<Together>& together = {}, const Priors& priors = {},

@@ -208,6 +208,7 @@ void set_pulls(const Comparison& readings, const Changes& best, const Experiment
   const Eigen::VectorXd noise = gap.covariance.diagonal().cwiseSqrt();
   const auto sds = floating_inputs(experiment);
   for (std::size_t c = 0; c < readings.inputs.size(); ++c) {
+    if (readings.inputs[c].ends_with(kCurvature)) continue;
     const auto at = static_cast<Eigen::Index>(c);
     const auto stated = sds.find(readings.inputs[c]);
     Pull one{readings.inputs[c], stated == sds.end() ? 0.0 : stated->second, pull[at],

@@ -11,6 +11,7 @@
 #include "base/random.h"
 #include "diagnosis/field_readings.h"
 #include "diagnosis/kinds/tools.h"
+#include "diagnosis/law_readings.h"
 #include "diagnosis/model_error.h"
 #include "diagnosis/reduced_space.h"
 #include "effects/list.h"
@@ -24,6 +25,7 @@ constexpr double kScale = 0.5, kLeast = 0.12;  // usual and least magnitudes, ov
 // Of responses: a polynomial through three magnitudes is not the effect. Beads that were measured wrongly are
 // only nearly found again.
 constexpr double kError = 0.07, kErrorOfBeads = 0.4;
+constexpr double kReading = 0.5;  // of what the other reading of a law does: one standard deviation of two that are alike
 constexpr int kReadLevels = 6, kReadMembers = 3;  // of effects that only change what instruments read
 
 std::string label(const ObservedFeatures& observed, std::size_t k) {
@@ -231,7 +233,13 @@ class Learner {
       columns.push_back(column.unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; }));
     };
     for (const auto& [key, sd] : floating_inputs(experiment_))
-      if (const Signature* found = responses.find(key)) add(key, found->at(1.0));
+      if (const Signature* found = responses.find(key)) {
+        add(key, found->powers.front());
+        // Of θ², whose standard deviation is √2.
+        if (found->powers.size() > 1) add(key + kCurvature, M_SQRT2 * found->powers[1]);
+      }
+    for (const auto& reading : law_readings())
+      if (const Signature* found = responses.find(reading.id)) add(reading.name, kReading * found->at(1.0));
     Eigen::VectorXd stresses(size());
     for (Eigen::Index f = 0; f < size(); ++f)
       stresses[f] = shared_stress_error(found_.observed.features[static_cast<std::size_t>(f)]);

@@ -31,6 +31,7 @@ struct Problem {
 /// The names of columns of gap.believed that are no keys of the sample.
 inline constexpr const char* kSimulationError = "stresses of the simulation";
 inline constexpr const char* kBeadsError = "measured centres and diameters";
+inline constexpr const char* kCurvature = ", squared";  ///< after a key: what its response is not a line by
 inline constexpr const char* kFieldError = "stated errors of displacements";
 
 /// `tests`: of every point of the plan. Features that fewer than four of five runs show are left out. BadInput

@@ -8,7 +8,7 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kFreedom = 30.0;  // most that the likelihood trusts a covariance with
+constexpr double kFreedom = 100.0;  // most that the likelihood trusts a covariance with
 constexpr Eigen::Index kMostDirections = 45;
 constexpr double kLeastDirection = 0.5;  // singular value, in units of the noise
 constexpr double kLongest = 8.0;         // a response counts no more than this for the directions
@@ -52,14 +52,14 @@ ReducedSpace::Fit ReducedSpace::fit(const Eigen::VectorXd& response, const Eigen
   fit.misfit = factor.matrixL().solve(values_ - response).squaredNorm();
   fit.log_volume = factor.matrixLLT().diagonal().array().log().sum();
   if (dimensions_ > 0.0) fit.widening = std::sqrt(1.0 + outside / (outside_scale_ * outside_freedom_));
-  fit.log_likelihood = widened(fit, 1.0);
+  fit.log_likelihood = widened(fit, 1.0, 1.0);
   return fit;
 }
 
-double ReducedSpace::widened(const Fit& fit, double factor) const {
-  return density(fit.misfit / (factor * factor),
-                 fit.log_volume + static_cast<double>(size()) * std::log(factor)) +
-         log_outside(factor * fit.widening);
+double ReducedSpace::widened(const Fit& fit, double within, double outside) const {
+  return density(fit.misfit / (within * within),
+                 fit.log_volume + static_cast<double>(size()) * std::log(within)) +
+         log_outside(outside * fit.widening);
 }
 
 void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {

@@ -32,8 +32,9 @@ class ReducedSpace {
   /// the span. The density is the multivariate t of Sellentin & Heavens (2016, MNRAS 456, L132).
   Fit fit(const Eigen::VectorXd& response, const Eigen::MatrixXd& covariance, double outside) const;
 
-  /// The log-likelihood where the noise's standard deviation is so many times as large, outside the span, too.
-  double widened(const Fit& fit, double factor) const;
+  /// The log-likelihood where the noise's standard deviation is so many times as large within the span, and
+  /// outside it.
+  double widened(const Fit& fit, double within, double outside) const;
 
  private:
   Eigen::VectorXd whiten(const Eigen::VectorXd& v) const { return factor_.matrixL().solve(v); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "diagnosis/curve_signature.h"
@@ -22,10 +23,11 @@ const std::vector<double> kShares = {0.8, 0.6, 0.4, 0.3};  // of the stress at a
 constexpr double kHalfShare = 0.03;        // of it, within which rows are read together
 constexpr double kSameTurn = 1.02;         // over the last strain, up to which loops are looked for
 constexpr double kLasting = 0.7;          // correlation of a load cell's noise from row to row
-// Errors of the simulation (docs/diagnose.md): of stresses, correlated along the curve; of the strain at which
-// platens meet the specimen; of loops.
-constexpr double kStressError = 0.015, kStressReach = 4.0, kSeatError = 1.5e-4, kUnloadingError = 0.02,
-                 kHysteresisError = 0.01, kLoopReach = 8.0;
+// Errors of the simulation, by what programs with the same law differ (docs/engines.md): of stresses up to
+// failure, correlated along the curve, and beyond it; of the strain at which platens meet the specimen; of loops.
+constexpr double kStressError = 0.005, kStressReach = 6.0, kFailedError = 0.15, kFailedReach = 1.5,
+                 kSeatError = 5e-5, kUnloadingError = 0.006, kHysteresisError = 0.005, kLoopReach = 8.0;
+constexpr double kFailed = 0.97;  // of the largest stress so far, below which a specimen has failed
 
 void check_order(const Observation& observation) {
   const auto& strain = observation.column("strain");
@@ -137,21 +139,35 @@ const std::map<std::string, double>& landmark_errors() {
   return all;
 }
 
+/// The first of the readings of stress that are beyond the last one before it fell; none: infinite.
+double strain_of_failure(const std::vector<Feature>& features) {
+  double largest = 0.0, last = 0.0;
+  for (const auto& feature : features) {
+    if (!feature.name.starts_with("stress_at")) continue;
+    if (feature.value < kFailed * largest) return last;
+    largest = std::max(largest, feature.value), last = feature.strain_to;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
 Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
   const auto count = static_cast<Eigen::Index>(features.size());
   if (count == 0 || !features.front().name.starts_with("stress_at"))
     return errors_by_name(features, landmark_errors());
-  Eigen::VectorXd stress = Eigen::VectorXd::Zero(count), unloading = stress, hysteresis = stress, seat = stress;
+  const double failure = strain_of_failure(features);
+  Eigen::VectorXd stress = Eigen::VectorXd::Zero(count), failed = stress, unloading = stress, hysteresis = stress,
+                  seat = stress;
   for (Eigen::Index k = 0; k < count; ++k) {
     const Feature& feature = features[static_cast<std::size_t>(k)];
     if (feature.name.starts_with("unloading")) unloading[k] = kUnloadingError;
     if (feature.name.starts_with("hysteresis")) hysteresis[k] = kHysteresisError;
     if (!feature.name.starts_with("stress_at")) continue;
     stress[k] = kStressError;
+    if (feature.strain_to >= failure) failed[k] = kFailedError;
     seat[k] = kSeatError / feature.strain_to;
   }
-  Eigen::MatrixXd covariance = errors_along(stress, kStressReach) + errors_along(unloading, kLoopReach) +
-                               errors_along(hysteresis, kLoopReach);
+  Eigen::MatrixXd covariance = errors_along(stress, kStressReach) + errors_along(failed, kFailedReach) +
+                               errors_along(unloading, kLoopReach) + errors_along(hysteresis, kLoopReach);
   covariance += Eigen::MatrixXd(seat.cwiseAbs2().asDiagonal());
   return covariance;
 }

@@ -1,4 +1,5 @@
 #include "diagnosis/bank.h"
+#include "diagnosis/law_readings.h"
 
 #include <gtest/gtest.h>
 
@@ -33,17 +34,36 @@ std::set<double> magnitudes(const BankPlan& plan, const std::string& id) {
   return found;
 }
 
-TEST(Bank, RunsEveryEffectAtThirdsAndInBothDirections) {
+TEST(Bank, RunsEveryEffectAtPartsOfItsRangeAndInBothDirections) {
   const BankPlan plan = plan_bank(one_compression(), {}, "beads");
   EXPECT_EQ(plan.runs.size(), plan.requests.size());
   EXPECT_EQ(magnitudes(plan, "missing_bridges").size(), 3u);
   EXPECT_NEAR(*magnitudes(plan, "missing_bridges").rbegin(), 0.3, 1e-12);
-  EXPECT_EQ(magnitudes(plan, "bead_friction"), (std::set<double>{-0.4, -0.2, 0.2, 0.4}));
+  EXPECT_EQ(magnitudes(plan, "platen_tilt").size(), 6u);  // does not draw
+  const auto friction = magnitudes(plan, "bead_friction");
+  EXPECT_EQ(friction.size(), 8u);
+  EXPECT_NEAR(*friction.begin(), -0.4, 1e-12);
+  EXPECT_NEAR(*friction.upper_bound(0.0), 0.1, 1e-12);
   EXPECT_TRUE(magnitudes(plan, "machine_compliance").empty());  // is read off the baselines
   EXPECT_TRUE(plan.absent.contains("funicular_bridges"));       // no polymer above W*
   std::set<int> members;
   for (const auto& point : plan.points) members.insert(point.member);
   EXPECT_EQ(members.size(), 6u);
+}
+
+TEST(Bank, RunsTheOtherReadingsOfTheLaw) {
+  const Experiment experiment = one_compression();
+  const BankPlan plan = plan_bank(experiment, {}, "beads");
+  for (const auto& reading : law_readings()) {
+    EXPECT_EQ(magnitudes(plan, reading.id), std::set<double>{1.0}) << reading.id;
+    Sample other = plan.conditions.front().sample;
+    reading.other(other);
+    const auto asked = std::find_if(plan.points.begin(), plan.points.end(), [&](const auto& p) { return p.id == reading.id; });
+    EXPECT_EQ(sample_text(changed_condition(experiment, plan.conditions.front(), asked->changes)), sample_text(other));
+    EXPECT_NE(sample_text(other), sample_text(plan.conditions.front().sample));
+    reading.other(other);
+    EXPECT_EQ(sample_text(other), sample_text(plan.conditions.front().sample));
+  }
 }
 
 /// How often a magnitude of an effect is run, in all tests and in those that end at a scan.

@@ -98,6 +98,23 @@ TEST(Emulator, WhatDrawsDifferByIsTheEffectsOwnAndNoScatter) {
   EXPECT_LT(responses.within.norm(), 0.01);  // of the draws nothing is in the scatter
 }
 
+TEST(Emulator, WhatDrawsDifferByIsNotBlownUpBySmallMagnitudes) {
+  // Draws differ by 0.2 θ beside a scatter of 0.1, at sixths of the range.
+  std::vector<DesignRun> runs;
+  for (int member = 0; member < 60; ++member)
+    runs.push_back({member, "", 0.0, Eigen::VectorXd::Constant(1, 0.0)});
+  for (int k = 0; k < 600; ++k) {
+    const auto n = static_cast<std::uint64_t>(k);
+    const double theta = (1 + k % 6) / 6.0;
+    const double value = theta + 0.2 * theta * random_normal(8, n) + 0.1 * random_normal(9, n);
+    runs.push_back({k % 60, "drawn", theta, Eigen::VectorXd::Constant(1, value), true});
+    runs.push_back({k % 60, "plain", theta, Eigen::VectorXd::Constant(1, theta + 0.1 * random_normal(10, n))});
+  }
+  const auto responses = fit_responses(runs, 1);
+  EXPECT_NEAR(std::sqrt(responses.find("drawn")->draws(0, 0)), 0.2, 0.03);
+  EXPECT_LT(responses.find("plain")->draws(0, 0), 1e-12);
+}
+
 TEST(Emulator, CorrelationsOfMembersAreNotTrustedWhole) {
   Responses responses;
   responses.members = {1, 2};

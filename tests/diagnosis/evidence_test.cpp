@@ -136,6 +136,21 @@ TEST(Evidence, SaysUnknownWhereNoEffectFits) {
   EXPECT_LE(sure_and_wrong, 2);
 }
 
+TEST(Evidence, WhatIsWrongOnlyAmongTheKnownDirectionsIsUnknown) {
+  // Two effects span three directions of eight; what is seen is far off in them and as expected outside.
+  auto two = effects(2, 4.0);
+  Gap gap = gap_of(Eigen::VectorXd::Zero(kFeatures));
+  const ReducedSpace space(gap, two);
+  ASSERT_LT(space.size(), kFeatures);
+  Eigen::VectorXd seen = draw(7);
+  for (const auto& effect : two) {
+    const Eigen::VectorXd along = effect.at(1.0).normalized();
+    seen -= 9.0 * along;  // against the sign that the effects have
+  }
+  gap.values = seen;
+  EXPECT_GT(probability(weigh(gap, two), "unknown"), 0.9);
+}
+
 TEST(Evidence, WhatABelievedInputCanAbsorbIsNoEffect) {
   const auto all = effects(4, 8.0);
   Gap gap = gap_of(all[2].at(1.0));

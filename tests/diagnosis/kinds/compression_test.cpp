@@ -128,6 +128,15 @@ TEST(Compression, ErrorsOfTheSimulationAreAPositiveDefiniteCovariance) {
   test::expect_covariance(error, readings.size());
   // A shift of the strain at which platens meet the specimen is a larger share of a smaller strain.
   EXPECT_GT(error(0, 0), 4.0 * error(10, 10));
+  // Beyond failure programs differ by ten times as much.
+  std::vector<Feature> falling;
+  for (const auto& [strain, stress] : {std::pair(0.01, 1e5), {0.02, 2e5}, {0.03, 1.5e5}, {0.04, 1.6e5}})
+    falling.push_back({"A", "stress_at_" + std::to_string(strain), Scale::aggregate, true, stress, strain, strain});
+  const Eigen::MatrixXd failed = kinds::compression().model_error(falling);
+  EXPECT_LT(std::sqrt(failed(0, 0)), 0.01);
+  EXPECT_GT(std::sqrt(failed(2, 2)), 0.1);
+  EXPECT_GT(std::sqrt(failed(3, 3)), 0.1);
+  EXPECT_GT(std::sqrt(failed(1, 1)), 0.1);  // the fall begins after the largest of them
   const auto landmarks = features_of(Level::landmarks, measured(), curve());
   test::expect_covariance(kinds::compression().model_error(landmarks), landmarks.size());
 }

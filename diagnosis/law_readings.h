@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/sample.h"
+
+namespace pendular::diagnosis {
+
+/// A point of the bond's law that the paper leaves open. Which way a specimen follows is not known: what the
+/// other way does enters as a believed input.
+struct LawReading {
+  const char* id;
+  const char* name;                ///< for readers
+  void (*other)(Sample& sample);   ///< takes the other way
+};
+
+/// By as much as engines differ: docs/engines.md.
+const std::vector<LawReading>& law_readings();
+
+/// The reading of that name; nullptr where there is none.
+const LawReading* find_law_reading(const std::string& id);
+
+}  // namespace pendular::diagnosis
