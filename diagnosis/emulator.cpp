@@ -23,7 +23,7 @@ constexpr double kDrawn = 0.35;          // share of a covariance that goes to i
 /// Runs of one id, less the baselines of their members.
 struct Group {
   std::string id;
-  bool draws = false, exact = false;
+  bool draws = false, exact = false, below = false;
   std::vector<double> theta;
   std::vector<Eigen::VectorXd> change;
 
@@ -61,8 +61,10 @@ std::vector<Group> groups_of(const std::vector<DesignRun>& runs, const Responses
   std::vector<Group> groups;
   for (const auto& run : runs) {
     if (run.id.empty()) continue;
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.id == run.id; });
-    if (group == groups.end()) group = groups.insert(groups.end(), {run.id, run.draws, run.exact, {}, {}});
+    const bool below = run.sided && run.theta < 0.0;
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const Group& g) { return g.id == run.id && g.below == below; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {run.id, run.draws, run.exact, below, {}, {}});
     const auto own = std::find(responses.members.begin(), responses.members.end(), run.member);
     Eigen::VectorXd baseline = responses.mean;
     if (own != responses.members.end()) {
@@ -84,7 +86,7 @@ Eigen::MatrixXd pairwise(const Eigen::MatrixXd& rows, double freedom_lost) {
 }
 
 /// Fits one group; its residuals, each over the room that the fit leaves it, go into `left`.
-Signature fit_group(const Group& group, Eigen::Index features, Eigen::MatrixXd& left) {
+Response fit_group(const Group& group, Eigen::Index features, Eigen::MatrixXd& left) {
   const auto runs = static_cast<Eigen::Index>(group.theta.size());
   const int degree = group.degree();
   const double scale = group.scale();
@@ -92,9 +94,8 @@ Signature fit_group(const Group& group, Eigen::Index features, Eigen::MatrixXd& 
   for (Eigen::Index r = 0; r < runs; ++r)
     for (int n = 0; n < degree; ++n)
       matrix(r, n) = std::pow(group.theta[static_cast<std::size_t>(r)] / scale, n + 1);
-  Signature signature;
-  signature.id = group.id;
-  signature.powers.assign(static_cast<std::size_t>(degree), Eigen::VectorXd::Zero(features));
+  Response response;
+  response.powers.assign(static_cast<std::size_t>(degree), Eigen::VectorXd::Zero(features));
   left = Eigen::MatrixXd::Constant(runs, features, std::nan(""));
   for (Eigen::Index f = 0; f < features; ++f) {
     std::vector<Eigen::Index> rows;
@@ -109,7 +110,7 @@ Signature fit_group(const Group& group, Eigen::Index features, Eigen::MatrixXd& 
     const Eigen::VectorXd found = solver.solve(values);
     const Eigen::MatrixXd inverse = solver.pseudoInverse();
     for (int n = 0; n < degree; ++n)
-      signature.powers[static_cast<std::size_t>(n)][f] = found[n] / std::pow(scale, n + 1);
+      response.powers[static_cast<std::size_t>(n)][f] = found[n] / std::pow(scale, n + 1);
     const Eigen::VectorXd residual = values - shown * found;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const auto at = static_cast<Eigen::Index>(r);
@@ -117,7 +118,7 @@ Signature fit_group(const Group& group, Eigen::Index features, Eigen::MatrixXd& 
       left(rows[r], f) = residual[at] / std::sqrt(room);
     }
   }
-  return signature;
+  return response;
 }
 
 /// No residual beyond some median deviations of its column.
@@ -171,12 +172,32 @@ Eigen::MatrixXd beyond(const Eigen::MatrixXd& scatter, const Eigen::MatrixXd& le
   return share.asDiagonal() * left * share.asDiagonal();
 }
 
+/// The response's own covariance from what its fit left.
+void set_draws(const Group& group, Eigen::MatrixXd& left, const Eigen::MatrixXd& scatter, Response& response) {
+  const double scattered = growth(group, left);
+  response.drawn_at = group.scale();
+  response.draws = beyond(scattered * scatter, shrunk(pairwise(left, 0.0)), group.draws);
+}
+
 }  // namespace
 
 const Signature* Responses::find(const std::string& id) const {
   const auto found =
       std::find_if(signatures.begin(), signatures.end(), [&](const Signature& s) { return s.id == id; });
   return found == signatures.end() ? nullptr : &*found;
+}
+
+void Responses::add(const std::string& id, bool below, Response response) {
+  auto found = std::find_if(signatures.begin(), signatures.end(), [&](const Signature& s) { return s.id == id; });
+  if (found == signatures.end()) {
+    found = signatures.emplace(signatures.end());
+    found->id = id;
+    static_cast<Response&>(*found) = response;  // of both signs, until the other one comes
+  }
+  if (below)
+    found->below = std::move(response);
+  else
+    static_cast<Response&>(*found) = std::move(response);
 }
 
 Eigen::MatrixXd positive_part(const Eigen::MatrixXd& covariance) {
@@ -188,55 +209,26 @@ Eigen::MatrixXd positive_part(const Eigen::MatrixXd& covariance) {
 Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index features) {
   Responses responses;
   take_baselines(runs, features, responses);
-  std::vector<Eigen::MatrixXd> scatter;
-  std::set<std::string> drawing;
-  std::map<std::string, double> scatters_by;  // of what is left at the largest magnitude, in units of the scatter
+  const auto groups = groups_of(runs, responses);
+  std::vector<Response> fits;
+  std::vector<Eigen::MatrixXd> left(groups.size()), scatter;
   double parameters = 0.0;
-  for (const auto& group : groups_of(runs, responses)) {
-    Eigen::MatrixXd left;
-    Signature signature = fit_group(group, features, left);
-    if (group.draws) drawing.insert(group.id);
-    if (!group.draws && !group.exact) {
-      scatter.push_back(left);
-      parameters += group.degree();
-    }
-    if (!group.exact) {
-      signature.drawn_at = group.scale();
-      scatters_by[signature.id] = growth(group, left);
-      signature.draws = shrunk(pairwise(left, 0.0));
-    }
-    responses.signatures.push_back(std::move(signature));
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    fits.push_back(fit_group(groups[g], features, left[g]));
+    if (groups[g].draws || groups[g].exact) continue;
+    scatter.push_back(left[g]);
+    parameters += groups[g].degree();
   }
-  Eigen::MatrixXd left = stacked(scatter, features);
-  responses.freedom = std::max(1.0, static_cast<double>(left.rows()) - parameters);
-  draw_in_outliers(left);
-  responses.within = pairwise(left, 0.0);
-  for (auto& signature : responses.signatures)
-    if (signature.draws.size() > 0)
-      signature.draws = beyond(scatters_by.at(signature.id) * responses.within, signature.draws,
-                               drawing.contains(signature.id));
+  Eigen::MatrixXd all = stacked(scatter, features);
+  responses.freedom = std::max(1.0, static_cast<double>(all.rows()) - parameters);
+  draw_in_outliers(all);
+  responses.within = pairwise(all, 0.0);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (!groups[g].exact) set_draws(groups[g], left[g], responses.within, fits[g]);
+    responses.add(groups[g].id, groups[g].below, std::move(fits[g]));
+  }
   responses.between = pairwise(responses.offsets.rowwise() - responses.mean.transpose(), 1.0);
   return responses;
-}
-
-Signature exact_signature(const std::string& id, const std::vector<double>& theta,
-                          const std::vector<Eigen::VectorXd>& changes, int degree) {
-  const auto count = static_cast<Eigen::Index>(theta.size());
-  degree = std::min(degree, static_cast<int>(count));
-  double scale = 0.0;
-  for (double one : theta) scale = std::max(scale, std::fabs(one));
-  Eigen::MatrixXd matrix(count, degree), values(count, changes.front().size());
-  for (Eigen::Index r = 0; r < count; ++r) {
-    const auto k = static_cast<std::size_t>(r);
-    for (int n = 0; n < degree; ++n) matrix(r, n) = std::pow(theta[k] / scale, n + 1);
-    values.row(r) = changes[k].transpose();
-  }
-  const Eigen::MatrixXd found = matrix.colPivHouseholderQr().solve(values);
-  Signature signature;
-  signature.id = id;
-  for (int n = 0; n < degree; ++n)
-    signature.powers.push_back(found.row(n).transpose() / std::pow(scale, n + 1));
-  return signature;
 }
 
 Scatter scatter_of(const Responses& responses) {

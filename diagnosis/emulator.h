@@ -18,6 +18,7 @@ struct DesignRun {
   Eigen::VectorXd values;  ///< as they are compared; NaN where the run does not show a feature
   bool draws = false;      ///< what is changed differs from draw to draw
   bool exact = false;      ///< what is changed has no scatter: the same run, read otherwise
+  bool sided = false;      ///< negative magnitudes have a response of their own
 };
 
 /// What a whole design of runs tells: value = member's baseline + Σ θ^k c_k of what was changed + scatter.
@@ -30,18 +31,15 @@ struct Responses {
   double freedom = 0.0;               ///< of the scatter
 
   const Signature* find(const std::string& id) const;
+  /// Of one sign of an id, or of both.
+  void add(const std::string& id, bool below, Response response);
 };
 
 /// Each run less the baseline of its member (the members' mean where that failed), fitted by a quadratic in θ for
-/// an id with three or more magnitudes, by a line for one with fewer. What effects that do not draw leave is the
+/// an id with three or more magnitudes, by a line for one with fewer; for each sign by itself where runs say so. What effects that do not draw leave is the
 /// scatter; what any leaves beyond that is its own covariance (Signature::draws). Covariances are over the runs that show
 /// both features. Runs that a polynomial cannot follow count no more than three median deviations.
 Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index features);
-
-/// Coefficients of a polynomial through zero, of as high a degree as `degree` and the magnitudes allow, for
-/// changes that have no scatter: one change (a vector of features) per θ.
-Signature exact_signature(const std::string& id, const std::vector<double>& theta,
-                          const std::vector<Eigen::VectorXd>& changes, int degree);
 
 /// Covariance of an observed specimen about the mean of the simulated ones, (1 + 1/R) of what lies between R
 /// members and the scatter of the specimen and of the fit; drawn to its diagonal, so that few runs do not

@@ -75,7 +75,8 @@ Eigen::MatrixXd covariance_of(const Signature& reduced, double theta, const Eige
       kEverywhere * response.squaredNorm() / std::max<double>(1.0, static_cast<double>(response.size()));
   Eigen::MatrixXd covariance =
       (reduced.error * reduced.error * (response.array().square() + everywhere)).matrix().asDiagonal();
-  if (reduced.draws.size() > 0) covariance += reduced.draws * std::pow(theta / reduced.drawn_at, 2);
+  const Response& here = reduced.response(theta);
+  if (here.draws.size() > 0) covariance += here.draws * std::pow(theta / here.drawn_at, 2);
   return covariance;
 }
 
@@ -124,8 +125,9 @@ class Explored {
         sum += response;
         product = product.cwiseProduct(response);
         covariance += covariance_of(*reduced_[e], cells[e].theta, response);
+        const Response& here = reduced_[e]->response(cells[e].theta);
         outside += std::pow(reduced_[e]->outside, 2) * response.squaredNorm() +
-                   std::pow(cells[e].theta / reduced_[e]->drawn_at, 2) * reduced_[e]->drawn_outside;
+                   std::pow(cells[e].theta / here.drawn_at, 2) * here.drawn_outside;
       }
       if (together_)
         sum += cells[0].theta / together_->theta_a * cells[1].theta / together_->theta_b * together_->beyond;

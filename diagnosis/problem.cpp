@@ -80,6 +80,14 @@ bool draws_in(const Changes& changes) {
          });
 }
 
+/// Whether one effect is changed, and not a believed input.
+bool effect_in(const Changes& changes) {
+  const auto& all = effects::all_effects();
+  return changes.size() == 1 && std::any_of(all.begin(), all.end(), [&](const auto& effect) {
+           return effect.id == changes.begin()->first;
+         });
+}
+
 bool read_only_in(const Changes& changes) {
   const auto& all = effects::all_effects();
   return changes.size() == 1 && std::any_of(all.begin(), all.end(), [&](const auto& effect) {
@@ -148,7 +156,7 @@ class Learner {
       if (point.whole && point.id.empty()) baselines_.push_back(values[k]);
       if (point.whole == scaled_) continue;
       design_.push_back({point.member, point.id, point.theta, std::move(values[k]), draws_in(point.changes),
-                         read_only_in(point.changes)});
+                         read_only_in(point.changes), effect_in(point.changes)});
       scans_only_.push_back(point.scans_only);
     }
   }
@@ -343,9 +351,13 @@ std::vector<Signature> part_of(const std::vector<Signature>& signatures,
                                const std::vector<std::size_t>& features) {
   const std::vector<Eigen::Index> rows(features.begin(), features.end());
   std::vector<Signature> parts = signatures;
+  const auto take = [&](Response& response) {
+    for (auto& power : response.powers) power = Eigen::VectorXd(power(rows));
+    if (response.draws.size() > 0) response.draws = Eigen::MatrixXd(response.draws(rows, rows));
+  };
   for (auto& part : parts) {
-    for (auto& power : part.powers) power = Eigen::VectorXd(power(rows));
-    if (part.draws.size() > 0) part.draws = Eigen::MatrixXd(part.draws(rows, rows));
+    take(part);
+    if (part.below) take(*part.below);
   }
   return parts;
 }

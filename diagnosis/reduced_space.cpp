@@ -28,15 +28,19 @@ ReducedSpace::ReducedSpace(const Gap& gap, const std::vector<Signature>& signatu
   learn_outside(gap.outside);
 }
 
-Signature ReducedSpace::reduced(const Signature& signature) const {
-  Signature found = signature;
-  for (auto& power : found.powers) power = reduced(power);
-  if (signature.draws.size() == 0) return found;
-  const Eigen::MatrixXd half = factor_.matrixL().solve(signature.draws);
+void ReducedSpace::reduce(Response& response) const {
+  for (auto& power : response.powers) power = reduced(power);
+  if (response.draws.size() == 0) return;
+  const Eigen::MatrixXd half = factor_.matrixL().solve(response.draws);
   const Eigen::MatrixXd whole = factor_.matrixL().solve(half.transpose());
-  found.draws = directions_.transpose() * whole * directions_;
-  found.drawn_outside = std::max(0.0, whole.trace() - found.draws.trace());
-  return found;
+  response.draws = directions_.transpose() * whole * directions_;
+  response.drawn_outside = std::max(0.0, whole.trace() - response.draws.trace());
+}
+
+Signature ReducedSpace::reduced(Signature signature) const {
+  reduce(signature);
+  if (signature.below) reduce(*signature.below);
+  return signature;
 }
 
 double ReducedSpace::outside(const Eigen::VectorXd& v) const {

@@ -16,7 +16,7 @@ class ReducedSpace {
   ReducedSpace(const Gap& gap, const std::vector<Signature>& signatures);
 
   Eigen::VectorXd reduced(const Eigen::VectorXd& v) const { return directions_.transpose() * whiten(v); }
-  Signature reduced(const Signature& signature) const;
+  Signature reduced(Signature signature) const;
   const Eigen::VectorXd& values() const { return values_; }
   Eigen::Index size() const { return values_.size(); }
   /// The square of what is outside the span.
@@ -38,6 +38,7 @@ class ReducedSpace {
 
  private:
   Eigen::VectorXd whiten(const Eigen::VectorXd& v) const { return factor_.matrixL().solve(v); }
+  void reduce(Response& response) const;
   void find_directions(const std::vector<Signature>& signatures);
   void learn_outside(const std::vector<double>& known);
   double log_outside(double factor) const;

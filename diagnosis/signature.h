@@ -2,29 +2,38 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace pendular::diagnosis {
 
-/// What an effect of magnitude θ does to the features, Σ θ^(k+1) powers[k]; and how large it may be.
-struct Signature {
-  std::string id;
+/// What a change of magnitude θ does to the features, Σ θ^(k+1) powers[k], and what draws of it differ by.
+struct Response {
   std::vector<Eigen::VectorXd> powers;
-  double lowest = 0.0, highest = 0.0;  ///< of θ
-  double scale = 0.0;                  ///< a usual |θ|
-  double least = 0.0;                  ///< |θ| below which the effect counts as absent
-  double error = 0.1;                  ///< of each feature's response, as a share of it
-  double outside = 0.03;               ///< of what it does outside the span of all responses, over what it does
-  Eigen::MatrixXd draws = {};          ///< covariance of what draws of it differ by, at drawn_at; empty: none
-  double drawn_at = 1.0;               ///< θ of that covariance, which grows with θ²
-  double drawn_outside = 0.0;          ///< its trace outside the span of all responses, of a reduced signature
+  Eigen::MatrixXd draws = {};    ///< covariance of what draws of it differ by, at drawn_at; empty: none
+  double drawn_at = 1.0;         ///< θ of that covariance, which grows with θ²
+  double drawn_outside = 0.0;    ///< its trace outside the span of all responses, of a reduced response
 
   Eigen::VectorXd at(double theta) const {
     Eigen::VectorXd sum = theta * powers.back();  // Horner's scheme
     for (std::size_t k = powers.size() - 1; k > 0; --k) sum = theta * (powers[k - 1] + sum);
     return sum;
   }
+};
+
+/// What an effect does, and how large it may be.
+struct Signature : Response {
+  std::string id;
+  std::optional<Response> below;  ///< for negative θ, where that is another response: bonds that break do not heal
+  double lowest = 0.0, highest = 0.0;  ///< of θ
+  double scale = 0.0;                  ///< a usual |θ|
+  double least = 0.0;                  ///< |θ| below which the effect counts as absent
+  double error = 0.1;                  ///< of each feature's response, as a share of it
+  double outside = 0.03;               ///< of what it does outside the span of all responses, over what it does
+
+  const Response& response(double theta) const { return theta < 0.0 && below ? *below : *this; }
+  Eigen::VectorXd at(double theta) const { return response(theta).at(theta); }
 };
 
 /// What runs of two effects together show beyond the sum of each, at magnitudes; it grows with their product.

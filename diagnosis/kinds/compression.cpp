@@ -27,7 +27,9 @@ constexpr double kLasting = 0.7;          // correlation of a load cell's noise 
 // failure, correlated along the curve, and beyond it; of the strain at which platens meet the specimen; of loops.
 constexpr double kStressError = 0.005, kStressReach = 6.0, kFailedError = 0.15, kFailedReach = 1.5,
                  kSeatError = 5e-5, kUnloadingError = 0.006, kHysteresisError = 0.005, kLoopReach = 8.0;
+constexpr double kLateUnloadingError = 0.05, kLateHysteresisError = 0.02;  // of loops about failure
 constexpr double kFailed = 0.97;  // of the largest stress so far, below which a specimen has failed
+constexpr double kLate = 0.8;     // of the strain of failure, beyond which bonds break in loops
 
 void check_order(const Observation& observation) {
   const auto& strain = observation.column("strain");
@@ -159,8 +161,9 @@ Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
                   seat = stress;
   for (Eigen::Index k = 0; k < count; ++k) {
     const Feature& feature = features[static_cast<std::size_t>(k)];
-    if (feature.name.starts_with("unloading")) unloading[k] = kUnloadingError;
-    if (feature.name.starts_with("hysteresis")) hysteresis[k] = kHysteresisError;
+    const bool late = feature.strain_to > kLate * failure;
+    if (feature.name.starts_with("unloading")) unloading[k] = late ? kLateUnloadingError : kUnloadingError;
+    if (feature.name.starts_with("hysteresis")) hysteresis[k] = late ? kLateHysteresisError : kHysteresisError;
     if (!feature.name.starts_with("stress_at")) continue;
     stress[k] = kStressError;
     if (feature.strain_to >= failure) failed[k] = kFailedError;

@@ -126,12 +126,19 @@ TEST(Emulator, CorrelationsOfMembersAreNotTrustedWhole) {
   EXPECT_NEAR(scatter.covariance(0, 0), 1.5, 1e-12);
 }
 
-TEST(Emulator, ExactChangesGiveAPolynomialThroughThem) {
-  std::vector<double> theta = {1.0, 2.0, 3.0, 4.0};
-  std::vector<Eigen::VectorXd> changes;
-  for (double t : theta) changes.push_back(Eigen::VectorXd::Constant(1, t - 0.5 * t * t + 0.1 * t * t * t));
-  const auto found = exact_signature("e", theta, changes, 3);
-  EXPECT_NEAR(found.at(2.5)[0], 2.5 - 0.5 * 6.25 + 0.1 * 15.625, 1e-10);
+TEST(Emulator, EachSignHasAResponseOfItsOwnWhereRunsSaySo) {
+  // Two to the one side, five to the other, as where bonds break but do not heal.
+  std::vector<DesignRun> runs = {{1, "", 0.0, Eigen::VectorXd::Zero(1)}};
+  for (const double theta : {-0.4, -0.2, 0.2, 0.4})
+    for (const bool sided : {false, true})
+      runs.push_back({1, sided ? "sided" : "smooth", theta,
+                      Eigen::VectorXd::Constant(1, (theta < 0.0 ? 5.0 : 2.0) * theta), false, false, sided});
+  const auto responses = fit_responses(runs, 1);
+  const Signature &sided = *responses.find("sided"), &smooth = *responses.find("smooth");
+  EXPECT_NEAR(sided.at(-0.3)[0], -1.5, 1e-12);
+  EXPECT_NEAR(sided.at(0.3)[0], 0.6, 1e-12);
+  EXPECT_FALSE(smooth.below);
+  EXPECT_GT(std::fabs(smooth.at(-0.1)[0] + 0.5), 0.05);
 }
 
 }  // namespace

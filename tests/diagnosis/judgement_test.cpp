@@ -8,6 +8,7 @@
 #include "diagnosis/next_experiments.h"
 #include "diagnosis/shrinkage.h"
 #include "diagnosis/verdict.h"
+#include "signatures.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -26,8 +27,8 @@ Problem planted(const Eigen::Vector3d& gap) {
   one.gap.covariance = one.observed.measurement;
   one.gap.believed = Eigen::Vector3d(0.03, 0.0, 0.02);
   one.inputs = {"bridges.youngs_modulus_pa"};
-  one.signatures = {{"missing_bridges", {Eigen::Vector3d(-2.0, -1.0, -1.5)}, 0.0, 0.4, 0.15},
-                    {"machine_compliance", {Eigen::Vector3d(-0.05, 0.0, 0.0)}, 0.0, 13.0, 5.0}};
+  one.signatures = {test::signature("missing_bridges", Eigen::Vector3d(-2.0, -1.0, -1.5), 0.0, 0.4, 0.15),
+                    test::signature("machine_compliance", Eigen::Vector3d(-0.05, 0.0, 0.0), 0.0, 13.0, 5.0)};
   one.noise.resize(3);
   return {one, one, {}};
 }

@@ -1,4 +1,5 @@
 #include "diagnosis/leading.h"
+#include "signatures.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +15,9 @@ Problem pair_of(double missing, double friction) {
   Comparison one;
   one.gap.covariance = Eigen::Matrix4d::Identity();
   one.gap.believed = Eigen::MatrixXd::Zero(4, 0);
-  one.signatures = {{"missing_bridges", {100.0 * Eigen::Vector4d(1, 0.5, 0, 0)}, 0.0, 0.3, 0.15, 0.036},
-                    {"bead_friction", {80.0 * Eigen::Vector4d(0, 0, 1, -0.5)}, -0.4, 0.4, 0.2, 0.048}};
+  one.signatures = {
+      test::signature("missing_bridges", 100.0 * Eigen::Vector4d(1, 0.5, 0, 0), 0.0, 0.3, 0.15, 0.036),
+      test::signature("bead_friction", 80.0 * Eigen::Vector4d(0, 0, 1, -0.5), -0.4, 0.4, 0.2, 0.048)};
   one.gap.values = one.signatures[0].at(missing) + one.signatures[1].at(friction);
   return {one, one, {}};
 }
