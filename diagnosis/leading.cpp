@@ -12,7 +12,7 @@ namespace {
 constexpr int kMembers = 4;                             // that each is run on
 constexpr double kPairLeads = 0.01, kLeads = 0.05;      // probabilities
 constexpr std::size_t kMostPairs = 4, kMostSingles = 2; // at a time
-constexpr double kPairSteps = 3.0, kSteps = 6.0;        // of a bank's range, to which magnitudes are rounded
+constexpr double kPairSteps = 3.0, kSteps = 12.0;       // of a bank's range, to which magnitudes are rounded
 
 /// The nearest step of an effect's range in the bank, at least the first.
 double rounded(const effects::Effect& effect, double theta, double steps) {
@@ -44,9 +44,11 @@ DesignPoint point_of(const Changes& changes, int member, bool whole) {
 
 std::vector<DesignPoint> leading_points(const Problem& problem, const Priors& priors, const BankPlan& plan) {
   const Comparison& readings = problem.readings;
+  Priors known = priors;  // before pairs were run what they do looks unknown
+  known.unknown = 0.0;
   std::vector<DesignPoint> points;
   std::size_t pairs = 0, singles = 0, runs = 0;
-  for (const auto& h : weigh(readings.gap, readings.signatures, readings.together, priors)) {
+  for (const auto& h : weigh(readings.gap, readings.signatures, readings.together, known)) {
     const bool pair = h.magnitudes.size() == 2;
     if (h.magnitudes.empty() || h.probability < (pair ? kPairLeads : kLeads)) continue;
     if (pair ? pairs == kMostPairs : singles == kMostSingles) continue;
