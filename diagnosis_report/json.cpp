@@ -133,6 +133,22 @@ ordered_json pulls_of(const Diagnosis& d) {
   return all;
 }
 
+ordered_json places_of(const Diagnosis& d) {
+  ordered_json all = ordered_json::array();
+  for (const auto& place : d.places) {
+    ordered_json ids = ordered_json::array();
+    for (std::size_t bead = 0; bead < place.ids.size(); ++bead)
+      if (place.stands_out(bead)) ids.push_back(place.ids[bead]);
+    all.push_back({{"observation", place.observation},
+                   {"strain", number(place.strain)},
+                   {"beads", place.ids.size()},
+                   {"threshold", number(place.cut)},
+                   {"bead_ids", ids},
+                   {"words", place.words}});
+  }
+  return all;
+}
+
 ordered_json noise_of(const Diagnosis& d) {
   ordered_json all = ordered_json::array();
   for (std::size_t k = 0; k < d.noise.size() && k < d.gap.rows.size(); ++k)
@@ -174,6 +190,7 @@ ordered_json to_json(const Diagnosis& d) {
   json["next_experiments"] = next_of(d);
   json["groups"] = groups_of(d);
   json["pulls"] = pulls_of(d);
+  json["places"] = places_of(d);
   json["separation"] = {{"effects", d.effects}, {"squared_distance", rows_of(d.separation)}};
   json["noise_budget"] = noise_of(d);
   json["runs"] = d.ledger.size();

@@ -102,6 +102,20 @@ TEST(DiagnosisJson, WhatIsNotFiniteOrNotMadeIsNull) {
   EXPECT_TRUE(quiet["shrinkage"]["controls"]["modulus_retuned"].is_null());
 }
 
+TEST(DiagnosisJson, NamesTheBeadsOfAPlace) {
+  auto diagnosis = test::planted_diagnosis();
+  diagnosis::Place place;
+  place.observation = "scan", place.strain = 0.015, place.cut = 2.0;
+  place.ids = {11, 12, 13};
+  place.misfit.value = {1.0, 5.0, 2.5};
+  diagnosis.places = {place};
+  const json report = read_back(diagnosis);
+  ASSERT_EQ(report["places"].size(), 1u);
+  EXPECT_EQ(report["places"][0]["observation"], "scan");
+  EXPECT_EQ(report["places"][0]["beads"], 3);
+  EXPECT_EQ(report["places"][0]["bead_ids"], (std::vector<int>{12, 13}));
+}
+
 TEST(DiagnosisJson, CountsFailedRuns) {
   const json report = read_back(test::planted_diagnosis());
   EXPECT_EQ(report["runs"], 30);
