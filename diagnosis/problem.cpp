@@ -72,27 +72,13 @@ Bank with_readings(const BankPlan& plan, const std::vector<SimulatedTests>& test
   return bank;
 }
 
-/// Whether what is changed differs from draw to draw. What pairs leave is no scatter of the members either.
-bool draws_in(const Changes& changes) {
+/// The effect that is changed, and nothing else; nullptr: none, a pair, or a believed input.
+const effects::Effect* only_effect_in(const Changes& changes) {
+  if (changes.size() != 1) return nullptr;
   const auto& all = effects::all_effects();
-  return changes.size() > 1 || std::any_of(all.begin(), all.end(), [&](const auto& effect) {
-           return effect.draws && changes.contains(effect.id);
-         });
-}
-
-/// Whether one effect is changed, and not a believed input.
-bool effect_in(const Changes& changes) {
-  const auto& all = effects::all_effects();
-  return changes.size() == 1 && std::any_of(all.begin(), all.end(), [&](const auto& effect) {
-           return effect.id == changes.begin()->first;
-         });
-}
-
-bool read_only_in(const Changes& changes) {
-  const auto& all = effects::all_effects();
-  return changes.size() == 1 && std::any_of(all.begin(), all.end(), [&](const auto& effect) {
-           return effect.reads_only() && changes.contains(effect.id);
-         });
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const auto& effect) { return effect.id == changes.begin()->first; });
+  return found == all.end() ? nullptr : &*found;
 }
 
 /// A matrix whose product with its transpose is a covariance.
@@ -155,8 +141,11 @@ class Learner {
       const DesignPoint& point = plan_.points[k];
       if (point.whole && point.id.empty()) baselines_.push_back(values[k]);
       if (point.whole == scaled_) continue;
-      design_.push_back({point.member, point.id, point.theta, std::move(values[k]), draws_in(point.changes),
-                         read_only_in(point.changes), effect_in(point.changes)});
+      const effects::Effect* effect = only_effect_in(point.changes);
+      // What pairs leave is no scatter of the members either.
+      const bool draws = point.changes.size() > 1 || (effect && effect->draws);
+      design_.push_back({point.member, point.id, point.theta, std::move(values[k]), draws,
+                         effect && effect->reads_only(), effect != nullptr});
       scans_only_.push_back(point.scans_only);
     }
   }
