@@ -63,9 +63,8 @@ struct BankPlan {
 
 /// Baselines of every member; each effect at sixths of its range (in both directions where it has two, then at
 /// quarters; of errors that the tables of beads show by themselves at parts of one and a half of that) and
-/// each believed input at one and two standard deviations to both sides, on members in turn; other readings of the law on
-/// four members. Effects that draw are
-/// drawn three times at thirds of their range. Tests that end at a scan are short: of them there are twice as many
+/// each believed input at one and two standard deviations to both sides, on members in turn; other readings of
+/// the law on four members. Effects that draw are drawn three times at thirds of their range. Tests that end at a scan are short: of them there are twice as many
 /// members and draws. Specimens of more than 2,000 beads that were not measured get a smaller one of the same
 /// shape, beside baselines of their own size. Effects that only change what instruments read need no runs.
 /// Leaving an effect out changes no other run.

@@ -23,8 +23,9 @@ const std::vector<double> kShares = {0.8, 0.6, 0.4, 0.3};  // of the stress at a
 constexpr double kHalfShare = 0.03;        // of it, within which rows are read together
 constexpr double kSameTurn = 1.02;         // over the last strain, up to which loops are looked for
 constexpr double kLasting = 0.7;          // correlation of a load cell's noise from row to row
-// Errors of the simulation, by what programs with the same law differ (docs/engines.md): of stresses up to
-// failure, correlated along the curve, and beyond it; of the strain at which platens meet the specimen; of loops.
+// Errors of the simulation. By what programs with the same law differ (docs/engines.md): of stresses up to
+// failure, correlated along the curve, and beyond it (there 7 to 30 %). Judged: of the strain at which platens meet
+// the specimen, and of loops.
 constexpr double kStressError = 0.005, kStressReach = 6.0, kFailedError = 0.15, kFailedReach = 1.5,
                  kSeatError = 5e-5, kUnloadingError = 0.006, kHysteresisError = 0.005, kLoopReach = 8.0;
 constexpr double kLateUnloadingError = 0.05, kLateHysteresisError = 0.02;  // of loops about failure
@@ -141,7 +142,7 @@ const std::map<std::string, double>& landmark_errors() {
   return all;
 }
 
-/// The first of the readings of stress that are beyond the last one before it fell; none: infinite.
+/// The strain of the last reading of stress before it falls; infinite where it does not fall.
 double strain_of_failure(const std::vector<Feature>& features) {
   double largest = 0.0, last = 0.0;
   for (const auto& feature : features) {
