@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/median.h"
+#include "diagnosis/mean_row.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -48,13 +49,9 @@ void take_baselines(const std::vector<DesignRun>& runs, Eigen::Index features, R
     responses.offsets.row(static_cast<Eigen::Index>(responses.members.size())) = of_it.front()->values.transpose();
     responses.members.push_back(member);
   }
-  responses.mean = Eigen::VectorXd::Constant(features, std::nan(""));
-  for (Eigen::Index f = 0; f < features; ++f) {
-    double sum = 0.0, count = 0.0;
-    for (const double value : responses.offsets.col(f))
-      if (std::isfinite(value)) sum += value, count += 1.0;
-    if (count > 0.0) responses.mean[f] = sum / count;
-  }
+  std::vector<Eigen::VectorXd> rows;
+  for (const auto& row : responses.offsets.rowwise()) rows.push_back(row.transpose());
+  responses.mean = mean_row(rows, features);
 }
 
 std::vector<Group> groups_of(const std::vector<DesignRun>& runs, const Responses& responses) {

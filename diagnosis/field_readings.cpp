@@ -15,6 +15,7 @@ namespace {
 constexpr double kStatedError = 0.2;      // of stated standard errors
 constexpr double kModelShare = 0.15;      // of what members scatter by
 constexpr double kModelFloor = 0.02;      // of a reading
+constexpr unsigned long kSeedOfRuns = 1000;  // of their noise
 constexpr double kUnstatedSigma = 1e-3;   // of displacements, over the beads' diameter, where nothing is stated
 
 /// The beads of an observation's scans, one after the other, in the order of its field.
@@ -43,19 +44,10 @@ std::vector<FollowedBeads> followed_in(const Experiment& experiment, const Obser
 }
 
 /// One scan's part of a field.
-struct Part {
-  Eigen::Index first, size;
-};
-
-std::vector<Part> parts_of(const std::vector<FollowedBeads>& scans) {
-  std::vector<Part> parts;
-  Eigen::Index at = 0;
-  for (const auto& scan : scans) {
-    const auto size = static_cast<Eigen::Index>(3 * scan.beads.size());
-    parts.push_back({at, size});
-    at += size;
-  }
-  return parts;
+Eigen::VectorXd part_of(const Eigen::VectorXd& field, const std::vector<FollowedBeads>& scans, std::size_t scan) {
+  Eigen::Index first = 0;
+  for (std::size_t s = 0; s < scan; ++s) first += static_cast<Eigen::Index>(3 * scans[s].beads.size());
+  return field.segment(first, static_cast<Eigen::Index>(3 * scans[scan].beads.size()));
 }
 
 Eigen::VectorXd joined(const std::vector<Eigen::VectorXd>& parts) {
@@ -69,74 +61,92 @@ Eigen::VectorXd joined(const std::vector<Eigen::VectorXd>& parts) {
 
 }  // namespace
 
-std::optional<FieldReadings> field_readings(const Experiment& experiment, const BankPlan& plan,
-                                            std::size_t index, const std::vector<SimulatedTests>& tests) {
+std::optional<FieldBank> field_bank(const Experiment& experiment, const BankPlan& plan, std::size_t index,
+                                    const std::vector<SimulatedTests>& tests) {
   const Observation& observation = experiment.observations[index];
-  if (!observation.kind->field || observation.beads.empty()) return std::nullopt;
-  const auto scans = followed_in(experiment, observation);
-  const auto parts = parts_of(scans);
-  const double um = 1e6;
-
-  std::vector<std::optional<Eigen::VectorXd>> fields;
+  const auto& field = observation.kind->field;
+  if (!field || observation.beads.empty()) return std::nullopt;
+  constexpr double um = 1e6;
+  FieldBank bank{observation.name, followed_in(experiment, observation),
+                 um * field(observation, observation.columns), {}};
   bool baseline = false;
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
     const auto columns =
         simulated_columns(experiment, plan.conditions, index, tests[k], plan.points[k].changes);
-    fields.emplace_back(columns ? std::optional(Eigen::VectorXd(um * observation.kind->field(observation, *columns)))
-                                : std::nullopt);
+    bank.of_runs.emplace_back();
+    if (columns) bank.of_runs.back() = um * field(observation, *columns);
     baseline = baseline || (columns && plan.points[k].id.empty());
   }
   if (!baseline) return std::nullopt;
-  const Eigen::VectorXd seen = um * observation.kind->field(observation, observation.columns);
+  return bank;
+}
 
-  FieldReadings readings;
-  std::vector<FieldStatistics> statistics;
-  std::vector<Eigen::VectorXd> of_seen, by_noise;
-  for (std::size_t s = 0; s < scans.size(); ++s) {
-    std::vector<BankField> bank;
-    for (std::size_t k = 0; k < fields.size(); ++k)
-      if (fields[k])
-        bank.push_back({plan.points[k].member, plan.points[k].id, plan.points[k].theta,
-                        fields[k]->segment(parts[s].first, parts[s].size)});
-    const FieldStatistics& read = statistics.emplace_back(scans[s], bank);
-    of_seen.push_back(read(seen.segment(parts[s].first, parts[s].size)));
+FieldReader::FieldReader(const FieldBank& bank, const std::vector<DesignPoint>& points, int but) : but_(but) {
+  for (std::size_t s = 0; s < bank.scans.size(); ++s) {
+    std::vector<BankField> learnt;
+    for (std::size_t k = 0; k < bank.of_runs.size(); ++k)
+      if (bank.of_runs[k] && points[k].member != but)
+        learnt.push_back(
+            {points[k].member, points[k].id, points[k].theta, part_of(*bank.of_runs[k], bank.scans, s)});
+    statistics_.emplace_back(bank.scans[s], learnt);
+  }
+}
+
+std::vector<Feature> FieldReader::measured(const FieldBank& bank) const {
+  std::vector<Feature> found;
+  for (std::size_t s = 0; s < statistics_.size(); ++s) {
+    const FieldStatistics& read = statistics_[s];
+    const Eigen::VectorXd values = read(part_of(bank.measured, bank.scans, s));
     for (std::size_t n = 0; n < read.size(); ++n)
-      readings.observed.push_back({observation.name,
-                                   fmt::format("{}_at_{:.2f}_percent", read.names()[n], 100.0 * read.strain()),
-                                   Scale::network, false, of_seen.back()[static_cast<Eigen::Index>(n)], 0.0,
-                                   read.strain()});
-    Eigen::VectorXd more = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(read.size()));
-    double count = 0.0;
-    for (const auto& one : bank) {
-      if (!one.id.empty()) continue;
-      const auto seed = static_cast<unsigned long>(one.member);
-      more += read(one.values + read.noise(seed, 1.0 + kStatedError)) -
-              read(one.values + read.noise(seed, 1.0 - kStatedError));
-      count += 2.0;
-    }
-    by_noise.push_back(more / count);
+      found.push_back({bank.observation,
+                       fmt::format("{}_at_{:.2f}_percent", read.names()[n], 100.0 * read.strain()), Scale::network,
+                       false, values[static_cast<Eigen::Index>(n)], 0.0, read.strain()});
   }
-  readings.by_noise = joined(by_noise);
+  return found;
+}
 
-  const auto size = readings.by_noise.size();
-  std::vector<Eigen::VectorXd> baselines;
-  for (std::size_t k = 0; k < fields.size(); ++k) {
-    if (!fields[k]) {
-      readings.of_runs.push_back(Eigen::VectorXd::Constant(size, std::nan("")));
-      continue;
-    }
-    std::vector<Eigen::VectorXd> of_run;
-    for (std::size_t s = 0; s < scans.size(); ++s)
-      of_run.push_back(statistics[s](fields[k]->segment(parts[s].first, parts[s].size) +
-                                     statistics[s].noise(1000 + static_cast<unsigned long>(plan.points[k].member))));
-    readings.of_runs.push_back(joined(of_run));
-    if (plan.points[k].id.empty()) baselines.push_back(readings.of_runs.back());
+Eigen::VectorXd FieldReader::read(const Eigen::VectorXd& field, unsigned long noise_seed, double share) const {
+  std::vector<Eigen::VectorXd> parts;
+  Eigen::Index first = 0;
+  for (const auto& statistics : statistics_) {
+    const Eigen::VectorXd noise = statistics.noise(noise_seed, share);
+    parts.push_back(statistics(field.segment(first, noise.size()) + noise));
+    first += noise.size();
   }
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(size), square = mean;
+  return joined(parts);
+}
+
+std::vector<Eigen::VectorXd> FieldReader::of_runs(const FieldBank& bank,
+                                                  const std::vector<DesignPoint>& points) const {
+  std::size_t size = 0;
+  for (const auto& statistics : statistics_) size += statistics.size();
+  std::vector<Eigen::VectorXd> found;
+  for (std::size_t k = 0; k < bank.of_runs.size(); ++k)
+    found.push_back(bank.of_runs[k] && points[k].member != but_
+                        ? read(*bank.of_runs[k], kSeedOfRuns + static_cast<unsigned long>(points[k].member))
+                        : Eigen::VectorXd::Constant(static_cast<Eigen::Index>(size), std::nan("")));
+  return found;
+}
+
+Eigen::VectorXd FieldReader::by_noise(const FieldBank& bank, const std::vector<DesignPoint>& points) const {
+  Eigen::VectorXd sum;
+  double count = 0.0;
+  for (std::size_t k = 0; k < bank.of_runs.size(); ++k) {
+    if (!bank.of_runs[k] || !points[k].id.empty() || points[k].member == but_) continue;
+    const auto seed = static_cast<unsigned long>(points[k].member);
+    const Eigen::VectorXd more = read(*bank.of_runs[k], seed, 1.0 + kStatedError) -
+                                 read(*bank.of_runs[k], seed, 1.0 - kStatedError);
+    sum = count > 0.0 ? Eigen::VectorXd(sum + more) : more;
+    count += 2.0;
+  }
+  return sum / count;
+}
+
+Eigen::MatrixXd field_model_error(const std::vector<Eigen::VectorXd>& baselines) {
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(baselines.front().size()), square = mean;
   for (const auto& one : baselines) mean += one / static_cast<double>(baselines.size());
   for (const auto& one : baselines) square += (one - mean).cwiseAbs2() / static_cast<double>(baselines.size());
-  readings.model = (kModelShare * kModelShare * square.array() + kModelFloor * kModelFloor).matrix().asDiagonal();
-  return readings;
+  return (kModelShare * kModelShare * square.array() + kModelFloor * kModelFloor).matrix().asDiagonal();
 }
 
 }  // namespace pendular::diagnosis

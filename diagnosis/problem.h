@@ -3,23 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/bank.h"
-#include "diagnosis/diagnosis.h"
-#include "diagnosis/emulator.h"
-#include "diagnosis/feature_values.h"
+#include "diagnosis/comparison.h"
 
 namespace pendular::diagnosis {
-
-/// Observation and simulation at one level: all vectors in the order of `observed`.
-struct Comparison {
-  ObservedFeatures observed;
-  Eigen::VectorXd simulated;  ///< as believed, as features are compared
-  Gap gap;
-  std::vector<std::string> inputs;    ///< what the columns of gap.believed are responses to
-  std::vector<Signature> signatures;  ///< of the effects
-  std::vector<Together> together;     ///< of those that were run together
-  std::vector<NoiseBudget> noise;
-};
 
 /// What is to be explained, and by what.
 struct Problem {
@@ -28,25 +14,8 @@ struct Problem {
   std::vector<std::string> warnings;  ///< features that could not be used, and why
 };
 
-/// The names of columns of gap.believed that are no keys of the sample.
-inline constexpr const char* kSimulationError = "stresses of the simulation";
-inline constexpr const char* kBeadsError = "measured centres and diameters";
-inline constexpr const char* kCurvature = ", squared";  ///< after a key: what its response is not a line by
-inline constexpr const char* kFieldError = "stated errors of displacements";
-
-/// `tests`: of every point of the plan. Features that fewer than four of five runs show are left out. BadInput
-/// where none is left.
+/// `tests`: of every point of the plan.
 Problem problem_of(const Experiment& experiment, const BankPlan& plan,
                    const std::vector<SimulatedTests>& tests);
-
-/// The gap of some features alone, in that order.
-Gap part_of(const Gap& gap, const std::vector<std::size_t>& features);
-std::vector<Signature> part_of(const std::vector<Signature>& signatures,
-                               const std::vector<std::size_t>& features);
-std::vector<Together> part_of(const std::vector<Together>& together, const std::vector<std::size_t>& features);
-
-/// The features of one of these observations.
-std::vector<std::size_t> features_from(const Comparison& comparison,
-                                       const std::vector<std::size_t>& observations);
 
 }  // namespace pendular::diagnosis

@@ -22,10 +22,13 @@ ReducedSpace::ReducedSpace(const Gap& gap, const std::vector<Signature>& signatu
     : factor_(gap.covariance + gap.believed * gap.believed.transpose()),
       freedom_(gap.freedom > 0.0 ? std::min(gap.freedom, kFreedom) : 0.0) {
   find_directions(signatures);
-  values_ = reduced(gap.values);
-  outside_ = outside(gap.values);
-  dimensions_ = static_cast<double>(gap.values.size() - values_.size());
+  dimensions_ = static_cast<double>(factor_.rows() - size());
   learn_outside(gap.outside);
+  const double p = static_cast<double>(size()), half = 0.5 * outside_freedom_;
+  log_chi_ = half * M_LN2 + std::lgamma(half);
+  log_density_ = freedom_ <= 0.0 ? 0.5 * p * std::log(2.0 * M_PI)
+                                 : 0.5 * p * std::log(M_PI * freedom_) + std::lgamma(0.5 * freedom_) -
+                                       std::lgamma(0.5 * (freedom_ + p));
 }
 
 void ReducedSpace::reduce(Response& response) const {
@@ -47,23 +50,28 @@ double ReducedSpace::outside(const Eigen::VectorXd& v) const {
   return std::max(0.0, whiten(v).squaredNorm() - reduced(v).squaredNorm());
 }
 
-ReducedSpace::Fit ReducedSpace::fit(const Eigen::VectorXd& response, const Eigen::MatrixXd& covariance,
-                                    double outside) const {
+Prediction ReducedSpace::predict(const Eigen::VectorXd& response, const Eigen::MatrixXd& covariance,
+                                 double outside) const {
   Eigen::MatrixXd wider = covariance;
   wider.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> factor(wider);
+  Prediction prediction{response, Eigen::LLT<Eigen::MatrixXd>(wider)};
+  prediction.log_volume = prediction.factor.matrixLLT().diagonal().array().log().sum();
+  if (dimensions_ > 0.0) prediction.widening = std::sqrt(1.0 + outside / (outside_scale_ * outside_freedom_));
+  return prediction;
+}
+
+Fit ReducedSpace::fit(const ReducedGap& gap, const Prediction& prediction) const {
   Fit fit;
-  fit.misfit = factor.matrixL().solve(values_ - response).squaredNorm();
-  fit.log_volume = factor.matrixLLT().diagonal().array().log().sum();
-  if (dimensions_ > 0.0) fit.widening = std::sqrt(1.0 + outside / (outside_scale_ * outside_freedom_));
-  fit.log_likelihood = widened(fit, 1.0, 1.0);
+  fit.misfit = prediction.factor.matrixL().solve(gap.within - prediction.response).squaredNorm();
+  fit.log_likelihood = widened(gap, prediction, fit.misfit, 1.0, 1.0);
   return fit;
 }
 
-double ReducedSpace::widened(const Fit& fit, double within, double outside) const {
-  return density(fit.misfit / (within * within),
-                 fit.log_volume + static_cast<double>(size()) * std::log(within)) +
-         log_outside(outside * fit.widening);
+double ReducedSpace::widened(const ReducedGap& gap, const Prediction& prediction, double misfit, double within,
+                             double outside) const {
+  return density(misfit / (within * within),
+                 prediction.log_volume + static_cast<double>(size()) * std::log(within)) +
+         log_outside(gap.outside, outside * prediction.widening);
 }
 
 void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {
@@ -101,18 +109,17 @@ void ReducedSpace::learn_outside(const std::vector<double>& known) {
   outside_freedom_ = 2.0 * mean * mean / square;
 }
 
-double ReducedSpace::log_outside(double factor) const {
+double ReducedSpace::log_outside(double outside, double factor) const {
   if (dimensions_ <= 0.0) return 0.0;
   const double half = 0.5 * outside_freedom_, scale = outside_scale_ * factor * factor,
-               x = std::max(1e-9, outside_ / scale);
-  return (half - 1.0) * std::log(x) - 0.5 * x - half * M_LN2 - std::lgamma(half) - std::log(scale);
+               x = std::max(1e-9, outside / scale);
+  return (half - 1.0) * std::log(x) - 0.5 * x - log_chi_ - std::log(scale);
 }
 
 double ReducedSpace::density(double squared, double log_volume) const {
   const double p = static_cast<double>(size());
-  if (freedom_ <= 0.0) return -log_volume - 0.5 * squared - 0.5 * p * std::log(2.0 * M_PI);
-  return -log_volume + std::lgamma(0.5 * (freedom_ + p)) - std::lgamma(0.5 * freedom_) -
-         0.5 * p * std::log(M_PI * freedom_) - 0.5 * (freedom_ + p) * std::log1p(squared / freedom_);
+  if (freedom_ <= 0.0) return -log_volume - 0.5 * squared - log_density_;
+  return -log_volume - 0.5 * (freedom_ + p) * std::log1p(squared / freedom_) - log_density_;
 }
 
 }  // namespace pendular::diagnosis

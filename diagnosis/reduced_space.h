@@ -9,6 +9,25 @@
 
 namespace pendular::diagnosis {
 
+/// A gap in a reduced space: its coordinates within the span of all responses, and the square of what is outside.
+struct ReducedGap {
+  Eigen::VectorXd within;
+  double outside = 0.0;
+};
+
+/// What an explanation says of a gap: the response, half the factor of its covariance, noise included, half the
+/// logarithm of that covariance's determinant, and by how much its errors widen what is outside the span.
+struct Prediction {
+  Eigen::VectorXd response;
+  Eigen::LLT<Eigen::MatrixXd> factor;
+  double log_volume = 0.0, widening = 1.0;
+};
+
+/// How well a prediction fits: logarithm of the density, and Mahalanobis distance squared.
+struct Fit {
+  double log_likelihood = 0.0, misfit = 0.0;
+};
+
 /// Features in units of their noise, believed inputs included, reduced to the directions that responses of all
 /// effects span beyond it. What lies outside is kept as one number, its square.
 class ReducedSpace {
@@ -17,39 +36,36 @@ class ReducedSpace {
 
   Eigen::VectorXd reduced(const Eigen::VectorXd& v) const { return directions_.transpose() * whiten(v); }
   Signature reduced(Signature signature) const;
-  const Eigen::VectorXd& values() const { return values_; }
-  Eigen::Index size() const { return values_.size(); }
+  ReducedGap gap(const Eigen::VectorXd& values) const { return {reduced(values), outside(values)}; }
+  Eigen::Index size() const { return directions_.cols(); }
   /// The square of what is outside the span.
   double outside(const Eigen::VectorXd& v) const;
 
-  /// How well a response fits: logarithm of the density, Mahalanobis distance squared, half the logarithm of the
-  /// covariance's determinant, and by how much its errors widen what is outside the span.
-  struct Fit {
-    double log_likelihood = 0.0, misfit = 0.0, log_volume = 0.0, widening = 1.0;
-  };
+  /// Of a reduced response that has this covariance besides the noise, and this square outside the span.
+  Prediction predict(const Eigen::VectorXd& response, const Eigen::MatrixXd& covariance, double outside) const;
 
-  /// Of what a response leaves, where the response has this covariance besides the noise, and this square outside
-  /// the span. The density is the multivariate t of Sellentin & Heavens (2016, MNRAS 456, L132).
-  Fit fit(const Eigen::VectorXd& response, const Eigen::MatrixXd& covariance, double outside) const;
+  /// The density is the multivariate t of Sellentin & Heavens (2016, MNRAS 456, L132).
+  Fit fit(const ReducedGap& gap, const Prediction& prediction) const;
 
-  /// The log-likelihood where the noise's standard deviation is so many times as large within the span, and
-  /// outside it.
-  double widened(const Fit& fit, double within, double outside) const;
+  /// The log-likelihood of a fit's misfit where the noise's standard deviation is so many times as large within
+  /// the span, and outside it.
+  double widened(const ReducedGap& gap, const Prediction& prediction, double misfit, double within,
+                 double outside) const;
 
  private:
   Eigen::VectorXd whiten(const Eigen::VectorXd& v) const { return factor_.matrixL().solve(v); }
   void reduce(Response& response) const;
   void find_directions(const std::vector<Signature>& signatures);
   void learn_outside(const std::vector<double>& known);
-  double log_outside(double factor) const;
+  double log_outside(double outside, double factor) const;
   double density(double squared, double log_volume) const;
 
   Eigen::LLT<Eigen::MatrixXd> factor_;
   double freedom_;
   Eigen::MatrixXd directions_;  // orthonormal columns in the whitened features
-  Eigen::VectorXd values_;
-  double outside_ = 0.0, dimensions_ = 0.0;  // of the gap; outside the span
+  double dimensions_ = 0.0;     // outside the span
   double outside_scale_ = 1.0, outside_freedom_ = 1.0;
+  double log_chi_ = 0.0, log_density_ = 0.0;  // normalisations of the densities outside and within
 };
 
 }  // namespace pendular::diagnosis

@@ -35,12 +35,24 @@ class FieldReadingsTest : public ::testing::Test {
     for (int level = 1; level <= 3; ++level) add(level, 0.5 * level);
   }
 
-  FieldReadings read(const std::vector<Followed>& rows, double sigma_um = 0.1) {
+  /// What is read of a scan, and of the bank.
+  struct Readings {
+    std::vector<Feature> observed;
+    std::vector<Eigen::VectorXd> of_runs;
+    Eigen::VectorXd by_noise;
+    Eigen::MatrixXd model;
+  };
+
+  Readings read(const std::vector<Followed>& rows, double sigma_um = 0.1) {
     write_text(folder / "scan.csv", test::followed_text(rows, kStrain, 1e-6, sigma_um));
     experiment = read_experiment(folder / "e.toml");
     plan.conditions = {{experiment.sample, folder / "beads.csv", {0}}};
     plan.size = {1.0};
-    return field_readings(experiment, plan, 0, tests).value();
+    const FieldBank bank = field_bank(experiment, plan, 0, tests).value();
+    const FieldReader reader(bank, plan.points);
+    Readings readings{reader.measured(bank), reader.of_runs(bank, plan.points), reader.by_noise(bank, plan.points), {}};
+    readings.model = field_model_error({readings.of_runs.begin(), readings.of_runs.begin() + 6});
+    return readings;
   }
 
   static std::vector<Followed> bent(double theta) {
@@ -49,7 +61,7 @@ class FieldReadingsTest : public ::testing::Test {
     return rows;
   }
 
-  static double named(const FieldReadings& readings, const std::string& name) {
+  static double named(const Readings& readings, const std::string& name) {
     for (const auto& feature : readings.observed)
       if (feature.name == name + "_at_2.00_percent") return feature.value;
     return std::nan("");
@@ -93,7 +105,7 @@ TEST_F(FieldReadingsTest, ATurnedShiftedAndScaledScanAreTheSame) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.2, Vec3(0.03, 0.02, 1.0).normalized()).toRotationMatrix();
   for (auto& row : turned)
     row.motion = 1.006 * (turn * (row.at + row.motion)) + Vec3(2e-5, -4e-5, 3e-5) - row.at;
-  const FieldReadings one = read(rows), other = read(turned);
+  const Readings one = read(rows), other = read(turned);
   ASSERT_EQ(one.observed.size(), other.observed.size());
   for (std::size_t k = 0; k < one.observed.size(); ++k)
     EXPECT_NEAR(one.observed[k].value, other.observed[k].value, 1e-6) << one.observed[k].name;
@@ -107,8 +119,8 @@ TEST_F(FieldReadingsTest, SimulatedFieldsHaveNoiseOfTheStatedSize) {
     for (int axis = 0; axis < 3; ++axis)
       row.motion[axis] +=
           5e-7 * random_normal(71, 3 * static_cast<std::uint64_t>(row.id) + static_cast<unsigned>(axis));
-  const FieldReadings stated = read(rows, 0.5), understated = read(rows, 0.1);
-  const auto off = [&](const FieldReadings& of) {
+  const Readings stated = read(rows, 0.5), understated = read(rows, 0.1);
+  const auto off = [&](const Readings& of) {
     double mean = 0.0;
     std::size_t at = 0;
     while (of.observed[at].name != "pairs_sliding_at_2.00_percent") ++at;
@@ -122,7 +134,7 @@ TEST_F(FieldReadingsTest, SimulatedFieldsHaveNoiseOfTheStatedSize) {
 
 TEST_F(FieldReadingsTest, RunsThatFailedShowNothing) {
   tests[7] = {std::nullopt};
-  const FieldReadings readings = read(bent(0.3));
+  const Readings readings = read(bent(0.3));
   ASSERT_EQ(readings.of_runs.size(), 9u);
   EXPECT_TRUE(readings.of_runs[7].array().isNaN().all());
   EXPECT_TRUE(readings.of_runs[6].allFinite());
@@ -133,7 +145,7 @@ TEST_F(FieldReadingsTest, BeadsThatTheScanLostAreNoLoss) {
   const auto rows = bent(0.8);
   auto some = rows;
   std::erase_if(some, [](const Followed& row) { return row.id % 12 == 0; });
-  const FieldReadings whole = read(rows), part = read(some);
+  const Readings whole = read(rows), part = read(some);
   ASSERT_EQ(whole.observed.size(), part.observed.size());
   EXPECT_NEAR(std::fabs(named(part, "mode_1")), std::fabs(named(whole, "mode_1")),
               0.1 * std::fabs(named(whole, "mode_1")));
@@ -146,7 +158,7 @@ TEST_F(FieldReadingsTest, WithoutABaselineThereAreNone) {
   experiment = read_experiment(folder / "e.toml");
   plan.conditions = {{experiment.sample, folder / "beads.csv", {0}}};
   plan.size = {1.0};
-  EXPECT_FALSE(field_readings(experiment, plan, 0, tests));
+  EXPECT_FALSE(field_bank(experiment, plan, 0, tests));
 }
 
 }  // namespace pendular::diagnosis
