@@ -21,6 +21,8 @@ constexpr double kScale = 0.5, kLeast = 0.12;  // usual and least magnitudes, ov
 // Of responses: a polynomial through three magnitudes is not the effect. Beads that were measured wrongly are
 // only nearly found again.
 constexpr double kError = 0.07, kErrorOfBeads = 0.4;
+// Of each reading's variance, once more, without correlation: some hundred readings are known from a dozen members.
+constexpr double kApart = 1.0;
 constexpr double kReading = 0.5;  // of what the other reading of a law does: one standard deviation of two that are alike
 
 /// Builds a comparison from a design.
@@ -125,6 +127,7 @@ class Learner {
       share += scatter.covariance(f, f) / found_.gap.covariance(f, f) / static_cast<double>(size());
       found_.noise.push_back(budget);
     }
+    if (observed.level == Level::readings) found_.gap.covariance.diagonal() *= 1.0 + kApart;
     // Welch and Satterthwaite: only the ensemble's part of the noise was estimated.
     found_.gap.freedom = scatter.freedom / std::max(1e-6, share * share);
   }
@@ -196,6 +199,7 @@ std::vector<Signature> part_of(const std::vector<Signature>& signatures,
   const auto take = [&](Response& response) {
     for (auto& power : response.powers) power = Eigen::VectorXd(power(rows));
     if (response.draws.size() > 0) response.draws = Eigen::MatrixXd(response.draws(rows, rows));
+    if (response.missed.size() > 0) response.missed = Eigen::MatrixXd(response.missed(Eigen::all, rows));
   };
   for (auto& part : parts) {
     take(part);

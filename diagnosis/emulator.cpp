@@ -18,7 +18,6 @@ constexpr int kDegree = 2, kExactDegree = 4;
 constexpr double kLeastRoom = 0.15;      // that a fit leaves a residual, of its variance
 constexpr double kOutlier = 3.0, kOfMedian = 1.4826;
 constexpr double kOfTheFit = 0.35;       // the fit's own variance over the scatter's
-constexpr double kBeyondScatter = 2.5;   // of the scatter's variance, from which a polynomial is seen to fail
 constexpr double kDrawn = 0.35;          // share of a covariance that goes to its diagonal
 
 /// Runs of one id, less the baselines of their members.
@@ -35,7 +34,7 @@ struct Group {
   }
   int degree() const {
     const auto levels = std::set<double>(theta.begin(), theta.end()).size();
-    return levels < 3 ? 1 : exact && levels > kExactDegree ? kExactDegree : kDegree;
+    return levels < 2 ? 1 : exact && levels > kExactDegree ? kExactDegree : kDegree;
   }
 };
 
@@ -82,8 +81,13 @@ Eigen::MatrixXd pairwise(const Eigen::MatrixXd& rows, double freedom_lost) {
   return (values.transpose() * values).array() / (counts.array() - freedom_lost).max(1.0);
 }
 
-/// Fits one group; its residuals, each over the room that the fit leaves it, go into `left`.
-Response fit_group(const Group& group, Eigen::Index features, Eigen::MatrixXd& left) {
+/// Residuals of a fit: over the square root of the room that the fit leaves each, so that they have the scatter's
+/// variance; and over that room, which is by how much a run is missed by a fit without it.
+struct Residuals {
+  Eigen::MatrixXd scaled, missed;
+};
+
+Response fit_group(const Group& group, Eigen::Index features, Residuals& left) {
   const auto runs = static_cast<Eigen::Index>(group.theta.size());
   const int degree = group.degree();
   const double scale = group.scale();
@@ -93,7 +97,8 @@ Response fit_group(const Group& group, Eigen::Index features, Eigen::MatrixXd& l
       matrix(r, n) = std::pow(group.theta[static_cast<std::size_t>(r)] / scale, n + 1);
   Response response;
   response.powers.assign(static_cast<std::size_t>(degree), Eigen::VectorXd::Zero(features));
-  left = Eigen::MatrixXd::Constant(runs, features, std::nan(""));
+  left.scaled = Eigen::MatrixXd::Constant(runs, features, std::nan(""));
+  left.missed = left.scaled;
   for (Eigen::Index f = 0; f < features; ++f) {
     std::vector<Eigen::Index> rows;
     for (Eigen::Index r = 0; r < runs; ++r)
@@ -112,7 +117,8 @@ Response fit_group(const Group& group, Eigen::Index features, Eigen::MatrixXd& l
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const auto at = static_cast<Eigen::Index>(r);
       const double room = std::max(kLeastRoom, 1.0 - shown.row(at).dot(inverse.col(at)));
-      left(rows[r], f) = residual[at] / std::sqrt(room);
+      left.scaled(rows[r], f) = residual[at] / std::sqrt(room);
+      left.missed(rows[r], f) = residual[at] / room;
     }
   }
   return response;
@@ -146,34 +152,30 @@ Eigen::MatrixXd shrunk(const Eigen::MatrixXd& covariance) {
   return positive_part(drawn);
 }
 
-/// Weighs what a fit left so that its mean square is the least-squares slope of its squares over θ², at the
-/// largest θ: what draws differ by grows with θ, the scatter does not. Returns the scatter's part of it.
-double growth(const Group& group, Eigen::MatrixXd& left) {
+/// Weighs residuals so that their mean square is the least-squares slope of their squares over θ², at the largest θ:
+/// what draws differ by grows with θ, the scatter does not. Returns the scatter's part of it.
+double growth(const Group& group, Eigen::MatrixXd& missed) {
   const auto runs = static_cast<double>(group.theta.size());
   double squares = 0.0, fourths = 0.0;
   for (const double theta : group.theta) {
     const double share = std::pow(theta / group.scale(), 2);
     squares += share / runs, fourths += share * share / runs;
   }
-  for (Eigen::Index r = 0; r < left.rows(); ++r)
-    left.row(r) *= std::fabs(group.theta[static_cast<std::size_t>(r)]) / group.scale() / std::sqrt(fourths);
+  for (Eigen::Index r = 0; r < missed.rows(); ++r)
+    missed.row(r) *= std::fabs(group.theta[static_cast<std::size_t>(r)]) / group.scale() / std::sqrt(fourths);
   return squares / fourths;
 }
 
-/// What an effect leaves beyond the scatter: all of it where it draws; else only features in which it is clearly
-/// more, since few runs do not tell a polynomial's failure from scatter.
-Eigen::MatrixXd beyond(const Eigen::MatrixXd& scatter, const Eigen::MatrixXd& left, bool draws) {
-  if (draws) return positive_part(left - scatter);
-  const Eigen::ArrayXd ratio = kBeyondScatter * scatter.diagonal().array() / left.diagonal().array().max(1e-30);
-  const Eigen::VectorXd share = (1.0 - ratio).max(0.0).sqrt();
-  return share.asDiagonal() * left * share.asDiagonal();
-}
-
-/// The response's own covariance from what its fit left.
-void set_draws(const Group& group, Eigen::MatrixXd& left, const Eigen::MatrixXd& scatter, Response& response) {
-  const double scattered = growth(group, left);
+/// The response's own covariance: of that by which runs are missed, beyond the scatter.
+void set_draws(const Group& group, Eigen::MatrixXd& missed, const Eigen::MatrixXd& scatter, Response& response) {
+  const double scattered = growth(group, missed);
   response.drawn_at = group.scale();
-  response.draws = beyond(scattered * scatter, shrunk(pairwise(left, 0.0)), group.draws);
+  response.draws = positive_part(pairwise(missed, 0.0) - scattered * scatter);
+  response.drawn_freedom = std::max(2.0, static_cast<double>(group.theta.size()) - group.degree());
+  std::vector<Eigen::Index> complete;
+  for (Eigen::Index r = 0; r < missed.rows(); ++r)
+    if (missed.row(r).allFinite()) complete.push_back(r);
+  response.missed = missed(complete, Eigen::all);
 }
 
 }  // namespace
@@ -208,12 +210,13 @@ Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index feature
   take_baselines(runs, features, responses);
   const auto groups = groups_of(runs, responses);
   std::vector<Response> fits;
-  std::vector<Eigen::MatrixXd> left(groups.size()), scatter;
+  std::vector<Residuals> left(groups.size());
+  std::vector<Eigen::MatrixXd> scatter;
   double parameters = 0.0;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     fits.push_back(fit_group(groups[g], features, left[g]));
     if (groups[g].draws || groups[g].exact) continue;
-    scatter.push_back(left[g]);
+    scatter.push_back(left[g].scaled);
     parameters += groups[g].degree();
   }
   Eigen::MatrixXd all = stacked(scatter, features);
@@ -221,7 +224,7 @@ Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index feature
   draw_in_outliers(all);
   responses.within = pairwise(all, 0.0);
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    if (!groups[g].exact) set_draws(groups[g], left[g], responses.within, fits[g]);
+    if (!groups[g].exact) set_draws(groups[g], left[g].missed, responses.within, fits[g]);
     responses.add(groups[g].id, groups[g].below, std::move(fits[g]));
   }
   responses.between = pairwise(responses.offsets.rowwise() - responses.mean.transpose(), 1.0);

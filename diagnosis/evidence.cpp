@@ -15,7 +15,7 @@ constexpr int kCells = 81;  // of an effect's range, in which another's nearest 
 
 Weighed none(const ReducedSpace& space, const ReducedGap& gap) {
   const Eigen::Index size = space.size();
-  const Prediction nothing = space.predict(Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size), 0.0);
+  const Prediction nothing = space.predict(Eigen::VectorXd::Zero(size), {Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)});
   const Fit fit = space.fit(gap, nothing);
   return {{"none", fit.log_likelihood, 0.0, {}, fit.misfit}, beside_unknown(space, gap, nothing, fit.misfit)};
 }

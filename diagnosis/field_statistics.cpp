@@ -14,7 +14,7 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr double kLeastMode = 0.05;      // µm, rms per bead: below it a difference is no mode
-constexpr double kCoherent = 0.6;        // of a mean over runs, over their rms: what repeats
+constexpr double kCoherent = 0.3;        // share of the squares that repeats from run to run
 constexpr double kIndependent = 0.05;    // of the largest singular value
 constexpr double kFloor = 0.25;          // of the noise's variance, below which sizes are not told apart
 constexpr double kEnds = 1.25;           // mean diameters from the flat ends
@@ -53,6 +53,28 @@ std::map<int, Eigen::VectorXd> baselines_of(const std::vector<BankField>& bank) 
   return found;
 }
 
+/// What fields change by with a magnitude: the line through the origin that fits all runs, since a single run is
+/// its own best mode and leaves nothing.
+struct Change {
+  explicit Change(Eigen::Index size) : sum(Eigen::VectorXd::Zero(size)) {}
+
+  Eigen::VectorXd sum;  // of θ times what changed
+  double theta_squares = 0.0, squares = 0.0, largest = 0.0;
+  int runs = 0;
+
+  void add(double theta, const Eigen::VectorXd& difference) {
+    sum += theta * difference;
+    theta_squares += theta * theta, squares += difference.squaredNorm();
+    largest = std::max(largest, std::fabs(theta)), ++runs;
+  }
+  /// Whether the line is more than chance makes of so many runs, and large enough to be seen.
+  bool repeats() const {
+    const double fitted = sum.squaredNorm() / theta_squares;  // of the squares
+    return per_bead(sum) * largest / theta_squares > kLeastMode &&
+           fitted > (kCoherent + (1.0 - kCoherent) / runs) * squares;
+  }
+};
+
 }  // namespace
 
 FieldStatistics::FieldStatistics(const FollowedBeads& followed, const std::vector<BankField>& bank)
@@ -74,25 +96,16 @@ void FieldStatistics::learn_modes(const std::vector<BankField>& bank) {
   reference_ = Eigen::VectorXd::Zero(bank.front().values.size());
   for (const auto& [member, values] : baselines) reference_ += values / static_cast<double>(baselines.size());
 
-  std::map<std::string, double> largest;
-  for (const auto& one : bank)
-    if (!one.id.empty()) largest[one.id] = std::max(largest[one.id], std::fabs(one.theta));
-  std::vector<Eigen::VectorXd> found;
-  for (const auto& [id, most] : largest) {
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(reference_.size());
-    double count = 0.0, square = 0.0;
-    for (const auto& one : bank) {
-      const auto own = baselines.find(one.member);
-      if (one.id != id || std::fabs(std::fabs(one.theta) - most) > 1e-9 * most || own == baselines.end()) continue;
-      const Eigen::VectorXd difference = one.values - own->second;
-      sum += one.theta > 0.0 ? difference : Eigen::VectorXd(-difference);
-      square += difference.squaredNorm(), count += 1.0;
-    }
-    if (count == 0.0) continue;
-    const Eigen::VectorXd mean = sum / count;
-    if (per_bead(mean) > kLeastMode && mean.norm() > kCoherent * std::sqrt(square / count))
-      found.push_back(mean.normalized());
+  std::map<std::pair<std::string, bool>, Change> changes;  // of either sign of an id
+  for (const auto& one : bank) {
+    const auto own = baselines.find(one.member);
+    if (one.id.empty() || own == baselines.end()) continue;
+    Change& change = changes.try_emplace({one.id, one.theta < 0.0}, reference_.size()).first->second;
+    change.add(one.theta, one.values - own->second);
   }
+  std::vector<Eigen::VectorXd> found;
+  for (const auto& [of, change] : changes)
+    if (change.repeats()) found.push_back(change.sum.normalized());
   modes_ = Eigen::MatrixXd(reference_.size(), 0);
   if (found.empty()) return;
   Eigen::MatrixXd all(reference_.size(), static_cast<Eigen::Index>(found.size()));

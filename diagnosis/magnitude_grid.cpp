@@ -1,6 +1,7 @@
 #include "diagnosis/magnitude_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -10,8 +11,10 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr int kCellsOfOne = 81, kCellsOfTwo = 11;  // of each effect's range
-constexpr int kRefined = 2, kParts = 4;            // how often cells at the peak are cut, and into how many
+constexpr double kScales[] = {0.4, 0.63, 1.0, 1.6, 2.5};  // of the standard deviations of a response's own covariance
+constexpr double kScaleWeights[] = {0.1, 0.24, 0.32, 0.24, 0.1};
+constexpr int kCellsOfOne = 41, kCellsOfTwo = 11;  // of each effect's range
+constexpr int kRefined = 3, kParts = 4;            // how often cells at the peak are cut, and into how many
 constexpr double kUnknownFactors[] = {1.0, 1.5, 2.5, 4.0, 7.0};  // of the noise's standard deviation
 constexpr double kTogether = 0.15;     // of their geometric mean, by which two effects do not add
 constexpr double kRunTogether = 0.07;  // likewise, where it was run what they do
@@ -26,15 +29,11 @@ double log_prior_of(const Signature& signature, double theta, double width) {
   return std::log(width / (signature.highest - signature.lowest - absent));
 }
 
-/// How a reduced response is known: to a share of itself, and to what its draws differ by.
-Eigen::MatrixXd covariance_of(const Signature& reduced, double theta, const Eigen::VectorXd& response) {
+/// How a reduced response is known by any run: to a share of itself.
+Eigen::VectorXd variance_of(const Signature& reduced, const Eigen::VectorXd& response) {
   const double everywhere =
       kEverywhere * response.squaredNorm() / std::max<double>(1.0, static_cast<double>(response.size()));
-  Eigen::MatrixXd covariance =
-      (reduced.error * reduced.error * (response.array().square() + everywhere)).matrix().asDiagonal();
-  const Response& here = reduced.response(theta);
-  if (here.draws.size() > 0) covariance += here.draws * std::pow(theta / here.drawn_at, 2);
-  return covariance;
+  return reduced.error * reduced.error * (response.array().square() + everywhere);
 }
 
 }  // namespace
@@ -49,15 +48,28 @@ double beside_unknown(const ReducedSpace& space, const ReducedGap& gap, const Pr
 
 struct MagnitudeGrid::Fitted {
   const Place* place;
-  Fit fit;
+  double log_likelihood = 0.0;
+  std::array<double, std::size(kScales)> misfits = {};
 
-  double log_weight() const { return place->log_prior + fit.log_likelihood; }
+  double log_weight() const { return place->log_prior + log_likelihood; }
   double log_density() const {
     double density = log_weight();
     for (const auto& cell : place->cells) density -= std::log(cell.width);
     return density;
   }
 };
+
+MagnitudeGrid::Fitted MagnitudeGrid::fit(const Place& place, const ReducedGap& gap) const {
+  Fitted fitted{&place};
+  std::vector<double> terms;
+  for (std::size_t k = 0; k < std::size(kScales); ++k) {
+    const Fit one = space_.fit(gap, place.predictions[k]);
+    fitted.misfits[k] = one.misfit;
+    terms.push_back(std::log(kScaleWeights[k]) + one.log_likelihood);
+  }
+  fitted.log_likelihood = log_sum(terms);
+  return fitted;
+}
 
 MagnitudeGrid::MagnitudeGrid(std::vector<Signature> reduced, std::optional<Together> together,
                              const ReducedSpace& space)
@@ -93,32 +105,43 @@ std::vector<MagnitudeGrid::Place> MagnitudeGrid::places_at(const std::vector<std
   return places;
 }
 
-Prediction MagnitudeGrid::predict(const std::vector<Cell>& cells) const {
+std::vector<Prediction> MagnitudeGrid::predict(const std::vector<Cell>& cells) const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(space_.size());
   Eigen::VectorXd product = Eigen::VectorXd::Constant(space_.size(), cells.size() > 1 ? 1.0 : 0.0);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(space_.size(), space_.size());
-  double outside = 0.0;
+  Errors errors{Eigen::VectorXd::Zero(space_.size()), Eigen::MatrixXd::Zero(space_.size(), space_.size())};
+  double drawn_outside = 0.0;
   for (std::size_t e = 0; e < cells.size(); ++e) {
     const double theta = cells[e].theta;
     const Eigen::VectorXd response = reduced_[e].at(theta);
     sum += response;
     product = product.cwiseProduct(response);
-    covariance += covariance_of(reduced_[e], theta, response);
+    errors.shares += variance_of(reduced_[e], response);
+    errors.outside += std::pow(reduced_[e].outside, 2) * response.squaredNorm();
     const Response& here = reduced_[e].response(theta);
-    outside += std::pow(reduced_[e].outside, 2) * response.squaredNorm() +
-               std::pow(theta / here.drawn_at, 2) * here.drawn_outside;
+    const double grown = std::pow(theta / here.drawn_at, 2);
+    if (here.draws.size() == 0) continue;
+    errors.draws += grown * here.draws;
+    drawn_outside += grown * here.drawn_outside;
+    errors.freedom = errors.freedom > 0.0 ? std::min(errors.freedom, here.drawn_freedom) : here.drawn_freedom;
   }
   if (together_)
     sum += cells[0].theta / together_->theta_a * cells[1].theta / together_->theta_b * together_->beyond;
-  covariance.diagonal() += std::pow(together_ ? kRunTogether : kTogether, 2) * product.cwiseAbs();
-  return space_.predict(sum, covariance, outside);
+  errors.shares += std::pow(together_ ? kRunTogether : kTogether, 2) * product.cwiseAbs();
+  std::vector<Prediction> found;
+  for (const double scale : kScales) {
+    Errors scaled = errors;
+    scaled.draws *= scale * scale;
+    scaled.outside += scale * scale * drawn_outside;
+    found.push_back(space_.predict(sum, scaled));
+  }
+  return found;
 }
 
 Weighed MagnitudeGrid::weigh(const ReducedGap& gap) const {
   std::vector<Fitted> fitted;
   std::deque<std::vector<Place>> finer;  // outlives what points into it
   const auto add = [&](const std::vector<Place>& places) {
-    for (const auto& place : places) fitted.push_back({&place, space_.fit(gap, place.prediction)});
+    for (const auto& place : places) fitted.push_back(fit(place, gap));
   };
   add(places_);
   for (int round = 0; round < kRefined && !fitted.empty(); ++round) {
@@ -144,8 +167,10 @@ Weighed MagnitudeGrid::weigh(const ReducedGap& gap) const {
   for (const auto& one : fitted) {
     weights.push_back(one.log_weight());
     if (reduced_.size() == 1)  // pairs have no part in it
-      beside.push_back(one.place->log_prior + beside_unknown(space_, gap, one.place->prediction, one.fit.misfit));
-    hypothesis.misfit = std::min(hypothesis.misfit, one.fit.misfit);
+      for (std::size_t k = 0; k < std::size(kScales); ++k)
+        beside.push_back(one.place->log_prior + std::log(kScaleWeights[k]) +
+                         beside_unknown(space_, gap, one.place->predictions[k], one.misfits[k]));
+    hypothesis.misfit = std::min(hypothesis.misfit, one.misfits[std::size(kScales) / 2]);
   }
   hypothesis.log_evidence = log_sum(weights), found.beside_unknown = log_sum(beside);
   for (std::size_t e = 0; e < reduced_.size(); ++e) {

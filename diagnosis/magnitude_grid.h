@@ -37,13 +37,14 @@ class MagnitudeGrid {
   struct Place {
     std::vector<Cell> cells;
     double log_prior = 0.0;
-    Prediction prediction;
+    std::vector<Prediction> predictions;  // one per scale of the response's own covariance
   };
   struct Fitted;
 
   static std::vector<std::vector<Cell>> parts_of(const std::vector<Cell>& cells, int parts);
   std::vector<Place> places_at(const std::vector<std::vector<Cell>>& all) const;
-  Prediction predict(const std::vector<Cell>& cells) const;
+  Fitted fit(const Place& place, const ReducedGap& gap) const;
+  std::vector<Prediction> predict(const std::vector<Cell>& cells) const;
   Magnitude magnitude(std::size_t effect, const std::vector<Fitted>& fitted, double log_evidence) const;
 
   std::vector<Signature> reduced_;

@@ -1,5 +1,6 @@
 #include "diagnosis/reduced_space.h"
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include <algorithm>
@@ -14,7 +15,24 @@ constexpr double kLeastDirection = 0.5;  // singular value, in units of the nois
 constexpr double kLongest = 8.0;         // a response counts no more than this for the directions
 constexpr int kSpanned = 3;              // magnitudes of each sign whose responses span
 constexpr double kFresh = 1.3;           // squares outside, of an observation over those of runs learnt from
+constexpr Eigen::Index kLeastRows = 3;   // from which the variance in directions that none of them shows is learnt
 constexpr std::size_t kLeastKnown = 8;   // runs from which what is outside is learnt
+
+/// Variance per direction of what each row has outside the span of the others.
+double in_fresh_directions(const Eigen::MatrixXd& rows) {
+  const Eigen::Index n = rows.rows();
+  if (rows.cols() <= n) return 0.0;
+  double sum = 0.0;
+  for (Eigen::Index r = 0; r < n; ++r) {
+    Eigen::MatrixXd others(rows.cols(), n - 1);
+    for (Eigen::Index k = 0, at = 0; k < n; ++k)
+      if (k != r) others.col(at++) = rows.row(k).transpose();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(others);
+    const Eigen::VectorXd turned = qr.householderQ().transpose() * rows.row(r).transpose();
+    sum += turned.tail(rows.cols() - n + 1).squaredNorm();
+  }
+  return sum / static_cast<double>(n * (rows.cols() - n + 1));
+}
 
 }  // namespace
 
@@ -24,11 +42,7 @@ ReducedSpace::ReducedSpace(const Gap& gap, const std::vector<Signature>& signatu
   find_directions(signatures);
   dimensions_ = static_cast<double>(factor_.rows() - size());
   learn_outside(gap.outside);
-  const double p = static_cast<double>(size()), half = 0.5 * outside_freedom_;
-  log_chi_ = half * M_LN2 + std::lgamma(half);
-  log_density_ = freedom_ <= 0.0 ? 0.5 * p * std::log(2.0 * M_PI)
-                                 : 0.5 * p * std::log(M_PI * freedom_) + std::lgamma(0.5 * freedom_) -
-                                       std::lgamma(0.5 * (freedom_ + p));
+  log_chi_ = 0.5 * outside_freedom_ * M_LN2 + std::lgamma(0.5 * outside_freedom_);
 }
 
 void ReducedSpace::reduce(Response& response) const {
@@ -38,6 +52,11 @@ void ReducedSpace::reduce(Response& response) const {
   const Eigen::MatrixXd whole = factor_.matrixL().solve(half.transpose());
   response.draws = directions_.transpose() * whole * directions_;
   response.drawn_outside = std::max(0.0, whole.trace() - response.draws.trace());
+  if (response.missed.rows() < kLeastRows) return;
+  Eigen::MatrixXd rows(response.missed.rows(), size());
+  for (Eigen::Index r = 0; r < rows.rows(); ++r) rows.row(r) = reduced(response.missed.row(r).transpose()).transpose();
+  response.draws.diagonal().array() += in_fresh_directions(rows);
+  response.missed = {};
 }
 
 Signature ReducedSpace::reduced(Signature signature) const {
@@ -50,13 +69,20 @@ double ReducedSpace::outside(const Eigen::VectorXd& v) const {
   return std::max(0.0, whiten(v).squaredNorm() - reduced(v).squaredNorm());
 }
 
-Prediction ReducedSpace::predict(const Eigen::VectorXd& response, const Eigen::MatrixXd& covariance,
-                                 double outside) const {
-  Eigen::MatrixXd wider = covariance;
-  wider.diagonal().array() += 1.0;
-  Prediction prediction{response, Eigen::LLT<Eigen::MatrixXd>(wider)};
-  prediction.log_volume = prediction.factor.matrixLLT().diagonal().array().log().sum();
-  if (dimensions_ > 0.0) prediction.widening = std::sqrt(1.0 + outside / (outside_scale_ * outside_freedom_));
+Prediction ReducedSpace::predict(const Eigen::VectorXd& response, const Errors& errors) const {
+  Eigen::MatrixXd covariance = errors.draws;
+  covariance.diagonal() += errors.shares;
+  covariance.diagonal().array() += 1.0;
+  Prediction prediction{response, Eigen::LLT<Eigen::MatrixXd>(covariance), freedom_};
+  // Welch and Satterthwaite: noise and draws are known by different numbers of runs.
+  const double share = errors.draws.trace() / covariance.trace();
+  if (freedom_ > 0.0 && errors.freedom > 0.0)
+    prediction.freedom = 1.0 / (share * share / errors.freedom + (1.0 - share) * (1.0 - share) / freedom_);
+  const double p = static_cast<double>(size()), nu = prediction.freedom;
+  prediction.log_volume = prediction.factor.matrixLLT().diagonal().array().log().sum() +
+                          (nu <= 0.0 ? 0.5 * p * std::log(2.0 * M_PI)
+                                     : 0.5 * p * std::log(M_PI * nu) + std::lgamma(0.5 * nu) - std::lgamma(0.5 * (nu + p)));
+  if (dimensions_ > 0.0) prediction.widening = std::sqrt(1.0 + errors.outside / (outside_scale_ * outside_freedom_));
   return prediction;
 }
 
@@ -69,8 +95,9 @@ Fit ReducedSpace::fit(const ReducedGap& gap, const Prediction& prediction) const
 
 double ReducedSpace::widened(const ReducedGap& gap, const Prediction& prediction, double misfit, double within,
                              double outside) const {
-  return density(misfit / (within * within),
-                 prediction.log_volume + static_cast<double>(size()) * std::log(within)) +
+  const double p = static_cast<double>(size()), nu = prediction.freedom, squared = misfit / (within * within);
+  return -prediction.log_volume - p * std::log(within) -
+         (nu <= 0.0 ? 0.5 * squared : 0.5 * (nu + p) * std::log1p(squared / nu)) +
          log_outside(gap.outside, outside * prediction.widening);
 }
 
@@ -114,12 +141,6 @@ double ReducedSpace::log_outside(double outside, double factor) const {
   const double half = 0.5 * outside_freedom_, scale = outside_scale_ * factor * factor,
                x = std::max(1e-9, outside / scale);
   return (half - 1.0) * std::log(x) - 0.5 * x - log_chi_ - std::log(scale);
-}
-
-double ReducedSpace::density(double squared, double log_volume) const {
-  const double p = static_cast<double>(size());
-  if (freedom_ <= 0.0) return -log_volume - 0.5 * squared - log_density_;
-  return -log_volume - 0.5 * (freedom_ + p) * std::log1p(squared / freedom_) - log_density_;
 }
 
 }  // namespace pendular::diagnosis

@@ -15,12 +15,20 @@ struct ReducedGap {
   double outside = 0.0;
 };
 
-/// What an explanation says of a gap: the response, half the factor of its covariance, noise included, half the
-/// logarithm of that covariance's determinant, and by how much its errors widen what is outside the span.
+/// How a reduced response is known, besides the noise.
+struct Errors {
+  Eigen::VectorXd shares;  ///< variances, of what is a share of the response
+  Eigen::MatrixXd draws;   ///< covariance of what runs of it differ by
+  double freedom = 0.0;    ///< degrees of freedom of that; 0: it is known
+  double outside = 0.0;    ///< square outside the span
+};
+
+/// What an explanation says of a gap: the response, the factor of its covariance, noise included, degrees of freedom
+/// of that, minus the logarithm of the density at its peak, and by how much errors widen what is outside the span.
 struct Prediction {
   Eigen::VectorXd response;
   Eigen::LLT<Eigen::MatrixXd> factor;
-  double log_volume = 0.0, widening = 1.0;
+  double freedom = 0.0, log_volume = 0.0, widening = 1.0;
 };
 
 /// How well a prediction fits: logarithm of the density, and Mahalanobis distance squared.
@@ -41,8 +49,7 @@ class ReducedSpace {
   /// The square of what is outside the span.
   double outside(const Eigen::VectorXd& v) const;
 
-  /// Of a reduced response that has this covariance besides the noise, and this square outside the span.
-  Prediction predict(const Eigen::VectorXd& response, const Eigen::MatrixXd& covariance, double outside) const;
+  Prediction predict(const Eigen::VectorXd& response, const Errors& errors) const;
 
   /// The density is the multivariate t of Sellentin & Heavens (2016, MNRAS 456, L132).
   Fit fit(const ReducedGap& gap, const Prediction& prediction) const;
@@ -58,14 +65,13 @@ class ReducedSpace {
   void find_directions(const std::vector<Signature>& signatures);
   void learn_outside(const std::vector<double>& known);
   double log_outside(double outside, double factor) const;
-  double density(double squared, double log_volume) const;
 
   Eigen::LLT<Eigen::MatrixXd> factor_;
   double freedom_;
   Eigen::MatrixXd directions_;  // orthonormal columns in the whitened features
   double dimensions_ = 0.0;     // outside the span
   double outside_scale_ = 1.0, outside_freedom_ = 1.0;
-  double log_chi_ = 0.0, log_density_ = 0.0;  // normalisations of the densities outside and within
+  double log_chi_ = 0.0;  // normalisation of the density outside
 };
 
 }  // namespace pendular::diagnosis

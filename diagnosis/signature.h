@@ -13,7 +13,9 @@ struct Response {
   std::vector<Eigen::VectorXd> powers;
   Eigen::MatrixXd draws = {};    ///< covariance of what draws of it differ by, at drawn_at; empty: none
   double drawn_at = 1.0;         ///< θ of that covariance, which grows with θ²
-  double drawn_outside = 0.0;    ///< its trace outside the span of all responses, of a reduced response
+  Eigen::MatrixXd missed = {};   ///< by how much runs were missed, left out, at drawn_at: a row each that shows all
+  double drawn_freedom = 0.0;    ///< degrees of freedom of draws; 0: known
+  double drawn_outside = 0.0;    ///< trace of draws outside the span of all responses, of a reduced response
 
   Eigen::VectorXd at(double theta) const {
     Eigen::VectorXd sum = theta * powers.back();  // Horner's scheme

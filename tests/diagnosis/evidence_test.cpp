@@ -74,9 +74,9 @@ TEST(Evidence, OfOneFeatureIsItsIntegralOverMagnitudes) {
       EXPECT_NEAR(h.log_evidence, -4.5 - 0.5 * std::log(2.0 * M_PI), 1e-12);
     }
     if (h.id != "a") continue;
-    EXPECT_NEAR(h.log_evidence, std::log(evidence), 5e-3);  // of cells that are coarse far from the peak
+    EXPECT_NEAR(h.log_evidence, std::log(evidence), 0.015);  // of cells that are coarse far from the peak
     EXPECT_NEAR(h.magnitudes[0].mean, first / evidence, 1e-3);
-    EXPECT_NEAR(h.magnitudes[0].interval_90.first, low, 1e-2);
+    EXPECT_NEAR(h.magnitudes[0].interval_90.first, low, 0.03);
   }
 }
 
