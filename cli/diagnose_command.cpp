@@ -22,6 +22,7 @@ struct Options {
   fs::path file;
   bool dry_run = false, no_fresh_runs = false;
   int levels = 3, runs = diagnosis::BankOptions().runs;
+  double confidence = diagnosis::Rules().confidence;
   std::vector<std::string> leave_out;
 };
 
@@ -63,12 +64,14 @@ void run(const Options& options) {
   const fs::path beads = options.making.store_folder(options.common) / "measured";
   const auto plan = diagnosis::plan_bank(experiment, bank_options(options), beads);
   make_folder(options.common.out);
+  diagnosis::Rules rules;
+  rules.confidence = options.confidence;
   auto found = diagnosis::diagnose(
       experiment, plan, beads,
       [&](const std::string& name, std::span<const sweep::RunRequest> requests) {
         return make_runs(options.making, options.common, name, requests);
       },
-      {}, !options.no_fresh_runs);
+      rules, !options.no_fresh_runs);
   found.provenance = provenance(options.common, inputs_of(options, experiment));
   const viz::Display display;
   diagnosis_report::write_report_folder({options.common.out, display}, found);
@@ -98,6 +101,11 @@ void add_diagnose(CLI::App& app) {
       ->add_option("--runs", options->runs,
                    "Most runs that are made, beside the first ones, at the explanations that lead")
       ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  command
+      ->add_option("--confidence", options->confidence,
+                   "How often the set of explanations is to hold the truth, as replayed runs show it")
+      ->check(CLI::Range(0.5, 0.99))
       ->capture_default_str();
   command->add_option("--leave-out", options->leave_out, "Effects that are not considered, by their names")
       ->delimiter(',');

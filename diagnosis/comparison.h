@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "diagnosis/design.h"
-#include "diagnosis/diagnosis.h"
+#include "diagnosis/gap.h"
 
 namespace pendular::diagnosis {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/provenance.h"
+#include "diagnosis/calibration.h"
 #include "diagnosis/conditions.h"
 #include "diagnosis/evidence.h"
 #include "diagnosis/experiment.h"
@@ -41,11 +42,6 @@ struct Pull {
   double pull = 0.0;    ///< best value less believed one, over sigma
   double spread = 1.0;  ///< posterior standard deviation over sigma
   double impact = 0.0;  ///< root mean square of its response over the features' noise
-};
-
-/// What makes up the noise of one feature: standard deviations.
-struct NoiseBudget {
-  double ensemble = 0.0, measurement = 0.0, model = 0.0, believed = 0.0;
 };
 
 /// A gap before and after something was added to the simulation, in units of its noise (excess()).
@@ -88,6 +84,7 @@ struct Diagnosis {
   std::vector<std::string> ambiguity_set;  ///< explanations that cannot be told apart here, best one first
   double set_probability = 0.0;
   std::string nearest_signature;  ///< what naming by the least misfit would say: an effect, or "none"
+  Promise promise;                ///< how far all this holds, from the replay
   double goodness = 1.0;  ///< of the best explanation: probability of a misfit as large by noise alone
   std::vector<std::string> effects;  ///< rows of `signatures` and `separation`
   Eigen::MatrixXd signatures;        ///< effect × feature at the effect's scale, over the feature's noise

@@ -7,6 +7,11 @@
 
 namespace pendular::diagnosis {
 
+/// What makes up the noise of one feature: standard deviations.
+struct NoiseBudget {
+  double ensemble = 0.0, measurement = 0.0, model = 0.0, believed = 0.0;
+};
+
 /// Where observation and simulation part: one feature.
 struct GapRow {
   Feature observed;

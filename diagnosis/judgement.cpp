@@ -98,53 +98,6 @@ std::string why_excluded(const Problem& problem, const Hypothesis& h, double mis
                      worst_of(problem.landmarks, left_by(problem.landmarks, {{h.id, theta}})));
 }
 
-/// Whether one explanation holds all effects of another: what is added explains nothing that the other does
-/// not.
-bool contains(const std::string& larger, const std::string& smaller) {
-  const auto all = effects_in(larger), some = effects_in(smaller);
-  return !some.empty() && all.size() > some.size() &&
-         std::all_of(some.begin(), some.end(),
-                     [&](const auto& id) { return std::find(all.begin(), all.end(), id) != all.end(); });
-}
-
-/// Explanations, best first, until they hold the wanted probability; pairs that only add to one that is in
-/// count for it. Then single effects that cannot be told from the best one; and `unknown`, where even that
-/// fits badly.
-void set_ambiguity(const Problem& problem, const std::vector<Hypothesis>& hypotheses, const Rules& rules,
-                   Diagnosis& diagnosis) {
-  auto& set = diagnosis.ambiguity_set;
-  double held = 0.0;
-  const auto is_in = [&](const std::string& id) {
-    return std::find(set.begin(), set.end(), id) != set.end();
-  };
-  for (const auto& h : hypotheses) {
-    if (held >= rules.in_set) break;
-    const bool covered =
-        std::any_of(set.begin(), set.end(), [&](const auto& id) { return contains(h.id, id); });
-    if (!covered) set.push_back(h.id);
-    held += h.probability;
-  }
-  const Eigen::MatrixXd& separation = diagnosis.separation;
-  const auto& signatures = problem.readings.signatures;
-  for (std::size_t b = 0; b < signatures.size(); ++b) {
-    const std::string& id = signatures[b].id;
-    const auto h =
-        std::find_if(hypotheses.begin(), hypotheses.end(), [&](const auto& x) { return x.id == id; });
-    if (is_in(id) || h->probability < rules.also_in_set) continue;
-    for (std::size_t a = 0; a < signatures.size(); ++a)
-      if (signatures[a].id == set.front() &&
-          separation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) < rules.separable) {
-        set.push_back(id);
-        break;
-      }
-  }
-  if (diagnosis.goodness < rules.poor_fit && !is_in("unknown")) set.push_back("unknown");
-  for (const auto& h : hypotheses)
-    if (is_in(h.id) ||
-        std::any_of(set.begin(), set.end(), [&](const auto& id) { return contains(h.id, id); }))
-      diagnosis.set_probability += h.probability;
-}
-
 /// What is unknown may do to a curve what a known effect does, but hardly to thousands of displacements.
 Priors priors_of(const Comparison& readings, const Rules& rules) {
   Priors priors = rules.priors;
@@ -270,14 +223,20 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   diagnosis.gap = gap_table(landmarks.observed.features, simulated, landmarks.gap);
   diagnosis.noise = landmarks.noise;
   set_signatures(problem, diagnosis);
-  const auto hypotheses =
-      weigh(readings.gap, readings.signatures, readings.together, priors_of(readings, rules), Pairs::run);
+  const Priors priors = priors_of(readings, rules);
+  diagnosis.promise =
+      promise_of(problem.features ? replay(experiment, plan, *problem.features, priors, rules.draws)
+                                  : std::vector<Replayed>{},
+                 rules.confidence);
+  const auto hypotheses = corrected(
+      weigh(readings.gap, readings.signatures, readings.together, priors, Pairs::run), diagnosis.promise.correction);
   set_explanations(problem, hypotheses, rules, plan, diagnosis);
   const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();
   diagnosis.nearest_signature = nearest_signature(hypotheses, directions);
   const Hypothesis& best = hypotheses.front();
   diagnosis.goodness = goodness_of(best.misfit, directions, readings.gap.freedom);
-  set_ambiguity(problem, hypotheses, rules, diagnosis);
+  const AmbiguitySet set = set_of(hypotheses, diagnosis.promise.correction);
+  diagnosis.ambiguity_set = set.ids, diagnosis.set_probability = set.probability;
   set_groups(problem, experiment, diagnosis);
   std::vector<std::size_t> all(experiment.observations.size());
   std::iota(all.begin(), all.end(), std::size_t{0});

@@ -9,15 +9,15 @@ namespace pendular::diagnosis {
 struct Rules {
   Priors priors;
   double like_known_in_fields = 0.05;  ///< Priors::like_known where displacements were measured: hardly
-  double in_set = 0.9;        ///< probability that an ambiguity set holds together
+  double confidence = 0.95;   ///< with which a set holds the truth, as the replay shows it
   double excluded = 0.01;     ///< of an effect by itself, below which it is excluded
-  double separable = 9.0;     ///< Δ² below which two effects cannot be told apart
-  double also_in_set = 0.05;  ///< probability from which an inseparable effect belongs to the set
-  double poor_fit = 0.1;      ///< goodness of the best explanation below which `unknown` belongs to the set
+  double separable = 9.0;     ///< Δ² from none below which an effect is hardly shown
+  int draws = 1;              ///< of each run that is replayed
 };
 
 /// Weighs every explanation of the gap and fills everything of a diagnosis that needs no further runs:
-/// gap, noise, explanations, ambiguity set, goodness, signatures, separation, groups, pulls.
+/// gap, noise, promise, explanations, ambiguity set, goodness, signatures, separation, groups, pulls. What it promises
+/// is learnt from a replay where the problem has the features of its bank.
 void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, const Experiment& experiment,
            Diagnosis& diagnosis);
 

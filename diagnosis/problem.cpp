@@ -8,12 +8,10 @@ Problem problem_of(const Experiment& experiment, const BankPlan& plan,
                    const std::vector<SimulatedTests>& tests) {
   Problem problem;
   const auto [read_plan, read_tests] = with_readings(plan, tests);
-  const auto learn = [&](Level level) {
-    const BankFeatures features(level, experiment, read_plan, read_tests);
-    return compare(experiment, read_plan, features.design(problem.warnings));
-  };
-  problem.landmarks = learn(Level::landmarks);
-  problem.readings = learn(Level::readings);
+  const BankFeatures landmarks(Level::landmarks, experiment, read_plan, read_tests);
+  problem.landmarks = compare(experiment, read_plan, landmarks.design(problem.warnings));
+  problem.features.emplace(Level::readings, experiment, read_plan, read_tests);
+  problem.readings = compare(experiment, read_plan, problem.features->design(problem.warnings));
   return problem;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace pendular::diagnosis {
 struct Problem {
   Comparison landmarks;  ///< for words, figures and repair
   Comparison readings;   ///< for the evidence
-  std::vector<std::string> warnings;  ///< features that could not be used, and why
+  std::optional<BankFeatures> features = {};  ///< that the readings were learnt from
+  std::vector<std::string> warnings = {};  ///< features that could not be used, and why
 };
 
 /// `tests`: of every point of the plan.

@@ -61,7 +61,7 @@ std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan
   std::vector<Replayed> found;
   for (std::size_t k = 0; k < held.size(); ++k) {
     const auto& [run, changes] = held[k];
-    Replayed one;
+    Replayed one{member, {}, {}};
     for (const auto& [id, theta] : changes)
       if (is_effect(id)) one.truth[id] = theta;
     const auto seed = kSeedsOfMember * static_cast<std::uint64_t>(member) + k;

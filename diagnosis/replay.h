@@ -9,6 +9,7 @@ namespace pendular::diagnosis {
 
 /// A run of the bank, diagnosed as if it had been measured.
 struct Replayed {
+  int member = 0;
   Changes truth;                  ///< its effects
   std::vector<Hypothesis> said;  ///< of it by a bank that lacks its member; most probable first
 };

@@ -149,6 +149,26 @@ ordered_json places_of(const Diagnosis& d) {
   return all;
 }
 
+ordered_json promise_of(const Diagnosis& d) {
+  const auto& p = d.promise;
+  const auto replayed = [&](double value) { return p.cases > 0 ? number(value) : ordered_json(nullptr); };
+  ordered_json reliability = ordered_json::array(), effects = ordered_json::object();
+  for (const auto& bin : p.reliability)
+    reliability.push_back({{"said", number(bin.said)}, {"came_true", number(bin.came_true)}, {"cases", bin.cases}});
+  for (const auto& [id, effect] : p.effects)
+    effects[id] = {{"cases", effect.cases}, {"told_from_none", effect.told_from_none}, {"first", effect.first}};
+  return {{"cases", p.cases},
+          {"confidence", number(p.confidence)},
+          {"in_set", replayed(p.in_set)},
+          {"set_size", replayed(p.set_size)},
+          {"theta_held", replayed(p.theta_held)},
+          {"false_alarms", replayed(p.false_alarms)},
+          {"temperature", number(p.correction.temperature)},
+          {"reliability", reliability},
+          {"effects", effects},
+          {"unseen", p.unseen}};
+}
+
 ordered_json noise_of(const Diagnosis& d) {
   ordered_json all = ordered_json::array();
   for (std::size_t k = 0; k < d.noise.size() && k < d.gap.rows.size(); ++k)
@@ -184,6 +204,7 @@ ordered_json to_json(const Diagnosis& d) {
   json["hypotheses"] = hypotheses_of(d);
   json["ambiguity_set"] = d.ambiguity_set;
   json["ambiguity_set_probability"] = number(d.set_probability);
+  json["promise"] = promise_of(d);
   json["nearest_signature"] = d.nearest_signature;
   json["goodness"] = number(d.goodness);
   json["shrinkage"] = shrinkage_of(d);

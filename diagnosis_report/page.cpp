@@ -102,6 +102,26 @@ viz::ReportSection budget_section(const Diagnosis& d) {
   return out;
 }
 
+viz::ReportSection promise_section(const Diagnosis& d) {
+  const auto& p = d.promise;
+  if (p.cases == 0)
+    return section("What this can promise",
+                   "The bank is too small to be replayed: probabilities and sets are widened by rule, not by what runs show.",
+                   {});
+  std::string text = fmt::format(
+      "{} simulated runs of known truth were diagnosed as if they had been measured, each by a bank without its member. The "
+      "set held the truth in {} % of them (asked for: {} %) at a mean size of {}; `unknown` was in it in {} %; intervals of "
+      "90 % held the magnitude in {} %.",
+      p.cases, per_cent(p.in_set), per_cent(p.confidence), rounded(p.set_size), per_cent(p.false_alarms),
+      per_cent(p.theta_held));
+  if (!p.unseen.empty())
+    text += fmt::format(" Not to be told from none with these observations in most runs: {}.", fmt::join(p.unseen, ", "));
+  auto out = section("What this can promise", text, {});
+  out.tables = {to_report(promise_table(d), "Replayed runs of each effect: shares told from none, and named first."),
+                to_report(reliability_table(d), "How often the most probable explanation of a replayed run was right.")};
+  return out;
+}
+
 viz::ReportSection far_section(const Diagnosis& d, const Pictures& pictures) {
   std::string text;
   if (pictures.how_far.empty()) text = "No test was simulated with an effect added.";
@@ -148,6 +168,7 @@ viz::Report page_of(const Diagnosis& d, const Pictures& pictures) {
   if (!pictures.overlays.empty())
     report.sections.push_back(section("Measured beside simulated", "", pictures.overlays));
   report.sections.push_back(which_section(d, pictures));
+  report.sections.push_back(promise_section(d));
   report.sections.push_back(far_section(d, pictures));
   report.sections.push_back(next_section(d, pictures));
   report.sections.push_back(budget_section(d));

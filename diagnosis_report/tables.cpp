@@ -131,6 +131,23 @@ Table excluded_table(const Diagnosis& d) {
   return table;
 }
 
+Table promise_table(const Diagnosis& d) {
+  Table table{"promises", {"effect", "replayed_runs", "told_from_none", "named_first"}, {}};
+  for (const auto& [id, effect] : d.promise.effects) {
+    const double runs = static_cast<double>(effect.cases);
+    table.rows.push_back({id, runs, static_cast<double>(effect.told_from_none) / runs,
+                          static_cast<double>(effect.first) / runs});
+  }
+  return table;
+}
+
+Table reliability_table(const Diagnosis& d) {
+  Table table{"reliability", {"probability_said", "share_that_came_true", "replayed_runs"}, {}};
+  for (const auto& bin : d.promise.reliability)
+    table.rows.push_back({bin.said, bin.came_true, static_cast<double>(bin.cases)});
+  return table;
+}
+
 Table next_table(const Diagnosis& d) {
   Table table{"next_experiments", {"observation", "expected_probability_resolved", "cost", "why"}, {}};
   for (const auto& next : d.next)

@@ -23,6 +23,12 @@ Table shown_hypothesis_table(const diagnosis::Diagnosis& diagnosis);
 /// excluded.csv: the explanations that are excluded, and why.
 Table excluded_table(const diagnosis::Diagnosis& diagnosis);
 
+/// promises.csv: what replayed runs of known truth show of each effect with these observations.
+Table promise_table(const diagnosis::Diagnosis& diagnosis);
+
+/// How often what was said with some probability came true among replayed runs.
+Table reliability_table(const diagnosis::Diagnosis& diagnosis);
+
 /// next_experiments.csv.
 Table next_table(const diagnosis::Diagnosis& diagnosis);
 

@@ -1,6 +1,7 @@
 #include "diagnosis/diagnose.h"
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <numeric>
@@ -78,8 +79,8 @@ TEST_F(Diagnose, NamesWhatWasWithheldAndClosesTheGap) {
   EXPECT_EQ(best.id, "missing_bridges");
   // With an effect that acts nowhere it explains as much: those pairs share the rest.
   EXPECT_GT(best.probability, 0.5);
-  // Something unknown may do the same; no other effect does.
-  EXPECT_EQ(found.ambiguity_set, (std::vector<std::string>{"missing_bridges", "unknown"}));
+  // No other effect does the same.
+  EXPECT_EQ(found.ambiguity_set, (std::vector<std::string>{"missing_bridges"}));
   EXPECT_GT(found.set_probability, 0.9);
   EXPECT_NEAR(best.magnitudes.front().mean, 0.12, 0.015);
   EXPECT_LT(best.magnitudes.front().interval_90.first, 0.12);
@@ -87,6 +88,23 @@ TEST_F(Diagnose, NamesWhatWasWithheldAndClosesTheGap) {
   EXPECT_GT(found.fitted.before, 2.0);
   EXPECT_GT(found.fitted.fraction, 0.7);
   EXPECT_NE(found.verdict.find("missing_bridges"), std::string::npos);
+}
+
+TEST_F(Diagnose, PromisesWhatReplayedRunsShowForAnyNumberOfThreads) {
+  truth.effects["missing_bridges"] = 0.12;
+  const Diagnosis parallel = diagnosed();
+  const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  const Diagnosis serial = diagnosed();
+  EXPECT_GT(parallel.promise.cases, 100u);
+  EXPECT_NEAR(parallel.promise.in_set, 0.95, 0.03);
+  EXPECT_NEAR(parallel.promise.theta_held, 0.9, 0.05);
+  EXPECT_LT(parallel.promise.false_alarms, 0.1);
+  EXPECT_EQ(parallel.promise.set_size, serial.promise.set_size);
+  EXPECT_EQ(parallel.promise.correction.level, serial.promise.correction.level);
+  EXPECT_EQ(parallel.promise.correction.widening, serial.promise.correction.widening);
+  ASSERT_EQ(parallel.explanations.size(), serial.explanations.size());
+  for (std::size_t k = 0; k < serial.explanations.size(); ++k)
+    EXPECT_EQ(parallel.explanations[k].probability, serial.explanations[k].probability);
 }
 
 TEST_F(Diagnose, ListsEveryEffectAndSumsToOne) {

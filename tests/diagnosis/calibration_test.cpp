@@ -1,0 +1,132 @@
+#include "diagnosis/calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr int kMembers = 10, kOfMember = 60;
+const std::vector<std::string> kIds = {"none", "a", "b", "c", "unknown"};
+
+/// Runs of known truth whose evidence is that of a single normal reading per explanation, told `sharper` times as sharply
+/// as is right: at 1 the probabilities are those of Bayes' rule.
+std::vector<Replayed> runs(double sharper, double theta_error, std::uint64_t seed) {
+  std::vector<Replayed> all;
+  for (int k = 0; k < kMembers * kOfMember; ++k) {
+    const auto n = static_cast<std::uint64_t>(k);
+    const std::size_t truth = n % 4;
+    Replayed one{1 + k % kMembers, {}, {}};
+    if (truth > 0) one.truth[kIds[truth]] = 1.0;
+    double total = 0.0;
+    for (std::size_t h = 0; h < kIds.size(); ++h) {
+      const double seen = random_normal(seed + h, n) + (h == truth ? 2.0 : 0.0);
+      // Of a reading that is 2 under its own explanation and 0 under the others.
+      Hypothesis said{kIds[h], sharper * (2.0 * seen - 2.0), 0.0, {}, 0.0};
+      if (kIds[h] == "unknown") said.log_evidence = sharper * -6.0;
+      said.probability = std::exp(said.log_evidence);
+      total += said.probability;
+      if (h > 0 && h < 4) {
+        const double mean = 1.0 + theta_error * random_normal(seed + 100 + h, n);
+        said.magnitudes = {{mean, {mean - 1.645, mean + 1.645}}};
+      }
+      one.said.push_back(said);
+    }
+    for (auto& h : one.said) h.probability /= total;
+    std::stable_sort(one.said.begin(), one.said.end(),
+                     [](const auto& a, const auto& b) { return a.probability > b.probability; });
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+TEST(Calibration, LeavesRightProbabilitiesAlone) {
+  const Promise promise = promise_of(runs(1.0, 1.0, 1), 0.95);
+  EXPECT_EQ(promise.cases, static_cast<std::size_t>(kMembers * kOfMember));
+  EXPECT_LE(promise.correction.temperature, 1.25);
+  for (const auto& bin : promise.reliability) {
+    if (bin.cases < 50) continue;
+    EXPECT_NEAR(bin.said, bin.came_true, 0.08);
+  }
+  EXPECT_NEAR(promise.theta_held, 0.9, 0.04);
+  EXPECT_LT(promise.correction.widening_of_others, 1.15);
+}
+
+TEST(Calibration, MendsProbabilitiesAndIntervalsThatAreTooSharp) {
+  const auto sharp = runs(3.0, 2.0, 2);
+  const Promise promise = promise_of(sharp, 0.95);
+  EXPECT_NEAR(promise.correction.temperature, 3.0, 1.01);
+  EXPECT_NEAR(promise.correction.widening_of_others, 2.0, 0.3);  // errors are twice as large as stated
+  EXPECT_NEAR(promise.theta_held, 0.9, 0.04);
+  for (const auto& bin : promise.reliability) {
+    if (bin.cases < 50) continue;
+    EXPECT_NEAR(bin.said, bin.came_true, 0.08);
+  }
+}
+
+TEST(Calibration, SetsHoldTheTruthAsOftenAsAsked) {
+  for (const double confidence : {0.8, 0.95}) {
+    const auto learnt = runs(2.0, 1.0, 3), fresh = runs(2.0, 1.0, 4);
+    const Promise promise = promise_of(learnt, confidence);
+    EXPECT_NEAR(promise.in_set, confidence, 0.04);
+    double held = 0.0;  // by runs that nothing was learnt from
+    for (const auto& one : fresh) {
+      const auto set = set_of(corrected(one.said, promise.correction), promise.correction);
+      const std::string truth = one.truth.empty() ? "none" : one.truth.begin()->first;
+      held += std::find(set.ids.begin(), set.ids.end(), truth) != set.ids.end();
+    }
+    EXPECT_NEAR(held / static_cast<double>(fresh.size()), confidence, 0.04);
+  }
+}
+
+TEST(Calibration, UnknownIsLetInByItsOwnGate) {
+  Correction correction;
+  correction.level = 0.5, correction.gate = 0.3;
+  const auto said = [](double unknown) {
+    std::vector<Hypothesis> all = {{"a", 0.0, 0.9 * (1.0 - unknown), {}, 0.0}, {"b", 0.0, 0.1 * (1.0 - unknown), {}, 0.0}};
+    all.insert(unknown > 0.5 ? all.begin() : all.end(), {"unknown", 0.0, unknown, {}, 0.0});
+    return all;
+  };
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(set_of(said(0.2), correction).ids, (Ids{"a"}));
+  EXPECT_EQ(set_of(said(0.4), correction).ids, (Ids{"a", "unknown"}));
+  EXPECT_EQ(set_of(said(0.7), correction).ids, (Ids{"unknown", "a"}));
+  EXPECT_EQ(set_of(said(0.99), correction).ids, (Ids{"unknown"}));
+}
+
+TEST(Calibration, APairStandsBehindWhatItAddsTo) {
+  Correction correction;
+  correction.level = 0.95;
+  const std::vector<Hypothesis> said = {{"a", 0.0, 0.6, {}, 0.0}, {"a+b", 0.0, 0.36, {}, 0.0}, {"c", 0.0, 0.04, {}, 0.0}};
+  const AmbiguitySet set = set_of(said, correction);
+  EXPECT_EQ(set.ids, (std::vector<std::string>{"a"}));
+  EXPECT_NEAR(set.probability, 0.96, 1e-12);
+}
+
+TEST(Calibration, TooFewRunsPromiseNothingAndWiden) {
+  auto few = runs(1.0, 1.0, 5);
+  few.resize(20);
+  const Promise promise = promise_of(few, 0.95);
+  EXPECT_EQ(promise.cases, 0u);
+  EXPECT_GE(promise.correction.temperature, 2.0);
+  EXPECT_GE(promise.correction.widening_of_others, 2.0);
+}
+
+TEST(Calibration, EffectsThatLookLikeNoneAreListed) {
+  auto all = runs(1.0, 1.0, 6);
+  for (auto& one : all)  // c is never told from none
+    if (one.truth.contains("c"))
+      for (auto& h : one.said) h.probability = h.id == "none" ? 0.97 : 0.01;
+  for (auto& one : all)
+    std::stable_sort(one.said.begin(), one.said.end(),
+                     [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  const Promise promise = promise_of(all, 0.8);
+  EXPECT_EQ(promise.unseen, (std::vector<std::string>{"c"}));
+}
+
+}  // namespace
+}  // namespace pendular::diagnosis
