@@ -74,10 +74,12 @@ Weigher::Weigher(const Gap& gap, const std::vector<Signature>& signatures, const
     }
 }
 
-std::vector<Hypothesis> Weigher::operator()(const Eigen::VectorXd& values) const {
+std::vector<Hypothesis> Weigher::operator()(const Eigen::VectorXd& values, double negligible) const {
   const ReducedGap gap = space_.gap(values);
   std::vector<Weighed> known = {none(space_, gap)};
-  for (const auto& one : singles_) known.push_back(one.weigh(gap));
+  double best = known.front().hypothesis.log_evidence;
+  for (const auto& one : singles_) best = std::max(best, one.coarse_evidence(gap));
+  for (const auto& one : singles_) known.push_back(one.weigh(gap, best - negligible));
   std::vector<Hypothesis> all = {unknown(known, priors_.like_known)};
   for (auto& one : known) all.push_back(std::move(one.hypothesis));
   for (const auto& [a, b, run] : pairs_)

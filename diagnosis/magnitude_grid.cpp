@@ -137,14 +137,21 @@ std::vector<Prediction> MagnitudeGrid::predict(const std::vector<Cell>& cells) c
   return found;
 }
 
-Weighed MagnitudeGrid::weigh(const ReducedGap& gap) const {
+double MagnitudeGrid::coarse_evidence(const ReducedGap& gap) const {
+  std::vector<double> weights = {kNever};
+  for (const auto& place : places_) weights.push_back(fit(place, gap).log_weight());
+  return log_sum(weights);
+}
+
+Weighed MagnitudeGrid::weigh(const ReducedGap& gap, double least) const {
   std::vector<Fitted> fitted;
   std::deque<std::vector<Place>> finer;  // outlives what points into it
   const auto add = [&](const std::vector<Place>& places) {
     for (const auto& place : places) fitted.push_back(fit(place, gap));
   };
   add(places_);
-  for (int round = 0; round < kRefined && !fitted.empty(); ++round) {
+  const int rounds = coarse_evidence(gap) >= least ? kRefined : 0;
+  for (int round = 0; round < rounds && !fitted.empty(); ++round) {
     const auto best = std::max_element(fitted.begin(), fitted.end(), [](const Fitted& a, const Fitted& b) {
       return a.log_density() < b.log_density();
     })->place->cells;

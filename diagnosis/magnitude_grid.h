@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -26,7 +27,11 @@ class MagnitudeGrid {
   /// `reduced`: one signature, or two; `together`: of two that were run together, reduced, in their order.
   MagnitudeGrid(std::vector<Signature> reduced, std::optional<Together> together, const ReducedSpace& space);
 
-  Weighed weigh(const ReducedGap& gap) const;
+  /// Cells are cut finer only where those that are not cut come to this logarithm of evidence.
+  Weighed weigh(const ReducedGap& gap, double least = -std::numeric_limits<double>::infinity()) const;
+
+  /// The logarithm of evidence before any cell is cut.
+  double coarse_evidence(const ReducedGap& gap) const;
 
  private:
   /// Some magnitudes of an effect, for which the one in the middle stands.

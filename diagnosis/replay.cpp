@@ -13,6 +13,7 @@
 namespace pendular::diagnosis {
 namespace {
 
+constexpr double kNegligible = 12.0;  // evidence, as a logarithm, below the best one's
 constexpr int kMoreBaselines = 3;  // draws, over those of other runs
 constexpr std::uint64_t kSeedsOfMember = 1000000;
 
@@ -65,7 +66,7 @@ std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan
     for (const auto& [id, theta] : changes)
       if (is_effect(id)) one.truth[id] = theta;
     const auto seed = kSeedsOfMember * static_cast<std::uint64_t>(member) + k;
-    one.said = weigher(run.values - mean + errors.draw(seed));
+    one.said = weigher(run.values - mean + errors.draw(seed), kNegligible);
     found.push_back(std::move(one));
   }
   return found;

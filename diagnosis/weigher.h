@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -19,8 +20,10 @@ class Weigher {
   Weigher(const Weigher&) = delete;  // its parts refer to its space
   Weigher& operator=(const Weigher&) = delete;
 
-  /// `values`: observed less simulated, as Gap::values.
-  std::vector<Hypothesis> operator()(const Eigen::VectorXd& values) const;
+  /// `values`: observed less simulated, as Gap::values. Magnitudes of single effects whose evidence is less than
+  /// e^−negligible of the best one's are told coarsely.
+  std::vector<Hypothesis> operator()(const Eigen::VectorXd& values,
+                                     double negligible = std::numeric_limits<double>::infinity()) const;
 
   const ReducedSpace& space() const { return space_; }
 
