@@ -94,7 +94,9 @@ void add_diagnose(CLI::App& app) {
   command->add_flag("--no-fresh-runs", options->no_fresh_runs,
                     "Only say where and which; make no further runs that measure how far the gap shrinks");
   command
-      ->add_option("--levels", options->levels, "Magnitudes from which the response to an effect that draws is learnt; twice as many of others")
+      ->add_option(
+          "--levels", options->levels,
+          "Magnitudes from which the response to an effect that draws is learnt; twice as many of others")
       ->check(CLI::Range(1, 6))
       ->capture_default_str();
   command

@@ -16,9 +16,9 @@ namespace {
 
 constexpr int kGenerated = 6, kMeasured = 12;  // members of an ensemble
 constexpr int kDraws = 3;                      // of effects that draw, at each magnitude
-constexpr int kFiner = 2;  // magnitudes of effects that do not draw, over those of others
+constexpr int kFiner = 2;                      // magnitudes of effects that do not draw, over those of others
 constexpr int kMoreOfScans = 2;  // members and draws of tests that end at a scan, over those of others
-constexpr int kOfALaw = 4;  // members that are run with the other reading of a law
+constexpr int kOfALaw = 4;       // members that are run with the other reading of a law
 constexpr double kMostBeads = 2000.0, kBankBeads = 1500.0;
 constexpr double kAbout = 1.5;  // of a magnitude that beads show, the largest in the bank
 constexpr double kModulusShare = 0.05, kFractionSd = 0.01;  // of believed inputs of which nothing is stated
@@ -128,7 +128,13 @@ class Planner {
     for (double theta : magnitudes_of(effect, levels, experiment_))
       for (int draw = 0; draw < (effect.draws && scanned ? kMoreOfScans : 1) * draws; ++draw) {
         const int member = 1 + turn++ % members_;
-        add({member, effect.id, theta, !scaled_, draw_seed(member, draw), draw >= draws, {{effect.id, theta}}});
+        add({member,
+             effect.id,
+             theta,
+             !scaled_,
+             draw_seed(member, draw),
+             draw >= draws,
+             {{effect.id, theta}}});
       }
   }
 
@@ -177,8 +183,8 @@ void add_points(const Experiment& experiment, const std::vector<DesignPoint>& po
   for (const auto& point : points) {
     for (std::size_t c = 0; c < plan.conditions.size(); ++c) {
       if (point.scans_only && !ends_at_scan(plan.conditions[c])) continue;
-      plan.requests.push_back(request_of(experiment, plan.conditions[c], point.member, point.seed, point.changes,
-                                         beads_folder, point.whole ? 1.0 : plan.size[c]));
+      plan.requests.push_back(request_of(experiment, plan.conditions[c], point.member, point.seed,
+                                         point.changes, beads_folder, point.whole ? 1.0 : plan.size[c]));
       plan.runs.push_back({plan.points.size(), c});
     }
     plan.points.push_back(point);

@@ -53,7 +53,7 @@ struct BankPlan {
   std::vector<Run> runs;  ///< one per request
   std::vector<sweep::RunRequest> requests;
   std::map<std::string, std::string> absent;  ///< effects without runs, and why
-  int further = 0;  ///< runs that may be made at the leading explanations
+  int further = 0;                            ///< runs that may be made at the leading explanations
 
   /// Whether responses are learnt on smaller specimens.
   bool scaled() const {
@@ -61,13 +61,13 @@ struct BankPlan {
   }
 };
 
-/// Baselines of every member; each effect at sixths of its range (in both directions where it has two, then at
-/// quarters; of errors that the tables of beads show by themselves at parts of one and a half of that) and
-/// each believed input at one and two standard deviations to both sides, on members in turn; other readings of
-/// the law on four members. Effects that draw are drawn three times at thirds of their range. Tests that end at a scan are short: of them there are twice as many
-/// members and draws. Specimens of more than 2,000 beads that were not measured get a smaller one of the same
-/// shape, beside baselines of their own size. Effects that only change what instruments read need no runs.
-/// Leaving an effect out changes no other run.
+/// Baselines of every member; each effect at sixths of its range (in both directions where it has two, then
+/// at quarters; of errors that the tables of beads show by themselves at parts of one and a half of that) and
+/// each believed input at one and two standard deviations to both sides, on members in turn; other readings
+/// of the law on four members. Effects that draw are drawn three times at thirds of their range. Tests that
+/// end at a scan are short: of them there are twice as many members and draws. Specimens of more than 2,000
+/// beads that were not measured get a smaller one of the same shape, beside baselines of their own size.
+/// Effects that only change what instruments read need no runs. Leaving an effect out changes no other run.
 BankPlan plan_bank(const Experiment& experiment, const BankOptions& options, const fs::path& beads_folder);
 
 /// The seed of what effects draw. It does not follow the place of an effect in the list: runs stay those of a

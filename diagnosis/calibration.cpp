@@ -13,9 +13,9 @@ namespace {
 constexpr double kTemperatures[] = {1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0};
 constexpr double kLeastProbability = 1e-9;  // that a wrong answer is charged with
 constexpr double kFalseAlarms = 0.05, kOfTheta = 0.9;
-constexpr double kOfAll = 10.0;             // runs that what all effects need is worth beside an effect's own
+constexpr double kOfAll = 10.0;  // runs that what all effects need is worth beside an effect's own
 constexpr double kUnknownAlone = 0.95;
-constexpr std::size_t kLeastCases = 60;     // from which a replay is believed
+constexpr std::size_t kLeastCases = 60;  // from which a replay is believed
 constexpr double kBins[] = {0.0, 0.4, 0.6, 0.8, 0.9, 1.0};
 constexpr const char* kNone = "none";
 constexpr const char* kUnknown = "unknown";
@@ -99,7 +99,8 @@ Correction learn(const Cases& cases, double confidence) {
   if (all.empty()) return found;
   found.widening_of_others = std::max(1.0, conformal(std::move(all), kOfTheta));
   for (auto& [id, values] : widenings) {
-    const double n = static_cast<double>(values.size()), own = std::max(0.3, conformal(std::move(values), kOfTheta));
+    const double n = static_cast<double>(values.size()),
+                 own = std::max(0.3, conformal(std::move(values), kOfTheta));
     found.widening[id] = std::max(
         1.0, std::exp((n * std::log(own) + kOfAll * std::log(found.widening_of_others)) / (n + kOfAll)));
   }
@@ -112,8 +113,8 @@ bool holds(const AmbiguitySet& set, const std::string& id) {
 }
 
 /// Adds what one replayed run shows of corrections that did not see its member.
-void count(const Replayed& one, const Correction& correction, Promise& promise, std::vector<Reliability>& bins,
-           double& magnitudes) {
+void count(const Replayed& one, const Correction& correction, Promise& promise,
+           std::vector<Reliability>& bins, double& magnitudes) {
   const auto said = corrected(one.said, correction);
   const AmbiguitySet set = set_of(said, correction);
   const std::string truth = truth_of(one);
@@ -121,7 +122,8 @@ void count(const Replayed& one, const Correction& correction, Promise& promise, 
   promise.set_size += static_cast<double>(set.ids.size());
   promise.false_alarms += holds(set, kUnknown);
   const double top = said.front().probability;
-  const auto bin = static_cast<std::size_t>(std::upper_bound(kBins + 1, std::end(kBins) - 1, top) - kBins - 1);
+  const auto bin =
+      static_cast<std::size_t>(std::upper_bound(kBins + 1, std::end(kBins) - 1, top) - kBins - 1);
   bins[bin].said += top, bins[bin].came_true += said.front().id == truth, ++bins[bin].cases;
   if (one.truth.empty()) return;
   EffectReplay& effect = promise.effects[truth];
@@ -133,6 +135,7 @@ void count(const Replayed& one, const Correction& correction, Promise& promise, 
   const auto& [low, high] = named->magnitudes.front().interval_90;
   const double theta = one.truth.begin()->second;
   promise.theta_held += low <= theta && theta <= high, magnitudes += 1.0;
+  promise.limits_held += std::fabs(theta) <= upper_limit(named->magnitudes.front());
 }
 
 /// "a+b" stands beside a or b.
@@ -146,10 +149,15 @@ bool adds_to(const std::string& pair, const std::vector<std::string>& ids) {
 
 }  // namespace
 
+double upper_limit(const Magnitude& magnitude) {
+  return std::max(std::fabs(magnitude.interval_90.first), std::fabs(magnitude.interval_90.second));
+}
+
 std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction) {
   std::vector<double> logs;
   for (const auto& h : said)
-    logs.push_back(std::log(std::max(1e-300, h.probability)) + h.log_evidence * (1.0 / correction.temperature - 1.0));
+    logs.push_back(std::log(std::max(1e-300, h.probability)) +
+                   h.log_evidence * (1.0 / correction.temperature - 1.0));
   const double total = log_sum(logs);
   for (std::size_t k = 0; k < said.size(); ++k) {
     said[k].probability = std::exp(logs[k] - total);
@@ -209,7 +217,7 @@ Promise promise_of(const std::vector<Replayed>& replayed, double confidence) {
   }
   const double n = static_cast<double>(cases.size());
   promise.in_set /= n, promise.set_size /= n, promise.false_alarms /= n;
-  if (magnitudes > 0.0) promise.theta_held /= magnitudes;
+  if (magnitudes > 0.0) promise.theta_held /= magnitudes, promise.limits_held /= magnitudes;
   for (auto& bin : bins) {
     if (bin.cases == 0) continue;
     bin.said /= static_cast<double>(bin.cases), bin.came_true /= static_cast<double>(bin.cases);

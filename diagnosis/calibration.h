@@ -19,15 +19,18 @@ struct EffectReplay {
   std::size_t cases = 0, told_from_none = 0, first = 0;
 };
 
-/// How probabilities, sets and intervals are made to hold what they promise, learnt from a replay; as it stands, for a
-/// bank that is too small for one: wide.
+/// How probabilities, sets and intervals are made to hold what they promise, learnt from a replay; as it
+/// stands, for a bank that is too small for one: wide.
 struct Correction {
-  double temperature = 2.0;  ///< by which logarithms of evidence are divided
-  double level = 0.95;       ///< of the known explanations' probability, that a set holds
-  double gate = 0.1;         ///< probability of `unknown` from which it belongs to the set
+  double temperature = 2.0;                     ///< by which logarithms of evidence are divided
+  double level = 0.95;                          ///< of the known explanations' probability, that a set holds
+  double gate = 0.1;                            ///< probability of `unknown` from which it belongs to the set
   std::map<std::string, double> widening = {};  ///< of an effect's interval of θ
   double widening_of_others = 2.0;
 };
+
+/// Upper limit of |θ|, one-sided at 95 %, of an effect that is there: the farther end of its 90 % interval.
+double upper_limit(const Magnitude& magnitude);
 
 /// What a set of explanations is made of.
 struct AmbiguitySet {
@@ -35,30 +38,34 @@ struct AmbiguitySet {
   double probability = 0.0;
 };
 
-/// What diagnoses of one experiment promise: found on replayed runs by corrections that were learnt from other
-/// members.
+/// What diagnoses of one experiment promise: found on replayed runs by corrections that were learnt from
+/// other members.
 struct Promise {
-  std::size_t cases = 0;        ///< 0: the bank is too small for a replay; the correction is not learnt
-  double confidence = 0.95;     ///< with which sets are to hold the truth
+  std::size_t cases = 0;     ///< 0: the bank is too small for a replay; the correction is not learnt
+  double confidence = 0.95;  ///< with which sets are to hold the truth
   double in_set = 0.0, set_size = 0.0;
-  double theta_held = 0.0;      ///< share of 90 % intervals of θ that hold it
-  double false_alarms = 0.0;    ///< share of known runs whose set holds `unknown`
+  double theta_held = 0.0;    ///< share of 90 % intervals of θ that hold it
+  double limits_held = 0.0;   ///< share of upper limits (upper_limit()) that |θ| is not above
+  double false_alarms = 0.0;  ///< share of known runs whose set holds `unknown`
   std::vector<Reliability> reliability;
   std::map<std::string, EffectReplay> effects;
-  std::vector<std::string> unseen;  ///< effects that are not told from none in half of their runs; in the library's order
+  std::vector<std::string>
+      unseen;  ///< effects that are not told from none in half of their runs; in the library's order
   Correction correction;
 };
 
-/// From replayed runs with one effect or none. `confidence` in (0, 1). Sets are split-conformal: the least level at which
-/// ⌈(n+1) confidence⌉ of n replayed sets hold their truth (Vovk et al. 2005); `unknown` is let in by the same rule at a
-/// false-alarm rate of 5 %; intervals of θ likewise at 90 %, those of effects with few runs drawn to what all need.
+/// From replayed runs with one effect or none. `confidence` in (0, 1). Sets are split-conformal: the least
+/// level at which ⌈(n+1) confidence⌉ of n replayed sets hold their truth (Vovk et al. 2005); `unknown` is let
+/// in by the same rule at a false-alarm rate of 5 %; intervals of θ likewise at 90 %, those of effects with
+/// few runs drawn to what all need.
 Promise promise_of(const std::vector<Replayed>& replayed, double confidence);
 
 /// Probabilities by tempered evidence, and intervals widened about their means.
 std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction);
 
-/// Of corrected explanations: `unknown` where it passes the gate, alone where it has nineteen twentieths; and the most
-/// probable of the others until they hold the level. Pairs that only add to one that is in count for it.
+/// Of corrected explanations: `unknown` where it passes the gate, alone where it has nineteen twentieths; and
+/// the most probable of the others until they hold the level. Pairs that only add to one that is in count for
+/// it.
 AmbiguitySet set_of(const std::vector<Hypothesis>& corrected, const Correction& correction);
 
 }  // namespace pendular::diagnosis

@@ -21,9 +21,11 @@ constexpr double kScale = 0.5, kLeast = 0.12;  // usual and least magnitudes, ov
 // Of responses: a polynomial through three magnitudes is not the effect. Beads that were measured wrongly are
 // only nearly found again.
 constexpr double kError = 0.07, kErrorOfBeads = 0.4;
-// Of each reading's variance, once more, without correlation: some hundred readings are known from a dozen members.
+// Of each reading's variance, once more, without correlation: some hundred readings are known from a dozen
+// members.
 constexpr double kApart = 1.0;
-constexpr double kReading = 0.5;  // of what the other reading of a law does: one standard deviation of two that are alike
+constexpr double kReading =
+    0.5;  // of what the other reading of a law does: one standard deviation of two that are alike
 
 /// Builds a comparison from a design.
 class Learner {
@@ -74,8 +76,8 @@ class Learner {
       const bool known = std::any_of(found_.together.begin(), found_.together.end(),
                                      [&](const Together& t) { return t.a + "+" + t.b == point.id; });
       if (point.changes.size() != 2 || !both || known) continue;
-      Together pair{point.changes.begin()->first, point.changes.rbegin()->first, point.changes.begin()->second,
-                    point.changes.rbegin()->second, both->at(1.0)};
+      Together pair{point.changes.begin()->first, point.changes.rbegin()->first,
+                    point.changes.begin()->second, point.changes.rbegin()->second, both->at(1.0)};
       for (const auto& signature : found_.signatures) {
         if (signature.id == pair.a) pair.beyond -= signature.at(pair.theta_a);
         if (signature.id == pair.b) pair.beyond -= signature.at(pair.theta_b);
@@ -141,7 +143,8 @@ class Learner {
     const auto outside = [&](const DesignRun& run) {
       Eigen::VectorXd drawn(size());
       for (Eigen::Index k = 0; k < size(); ++k)
-        drawn[k] = random_normal(static_cast<std::uint64_t>(&run - design_.runs.data()), static_cast<std::uint64_t>(k));
+        drawn[k] = random_normal(static_cast<std::uint64_t>(&run - design_.runs.data()),
+                                 static_cast<std::uint64_t>(k));
       return space.outside(run.values - responses.mean + noise * drawn);
     };
     for (const auto& run : design_.runs)
@@ -208,7 +211,8 @@ std::vector<Signature> part_of(const std::vector<Signature>& signatures,
   return parts;
 }
 
-std::vector<Together> part_of(const std::vector<Together>& together, const std::vector<std::size_t>& features) {
+std::vector<Together> part_of(const std::vector<Together>& together,
+                              const std::vector<std::size_t>& features) {
   const std::vector<Eigen::Index> rows(features.begin(), features.end());
   std::vector<Together> parts = together;
   for (auto& part : parts) part.beyond = Eigen::VectorXd(part.beyond(rows));

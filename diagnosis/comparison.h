@@ -35,7 +35,8 @@ Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance);
 Gap part_of(const Gap& gap, const std::vector<std::size_t>& features);
 std::vector<Signature> part_of(const std::vector<Signature>& signatures,
                                const std::vector<std::size_t>& features);
-std::vector<Together> part_of(const std::vector<Together>& together, const std::vector<std::size_t>& features);
+std::vector<Together> part_of(const std::vector<Together>& together,
+                              const std::vector<std::size_t>& features);
 
 /// The features of one of these observations.
 std::vector<std::size_t> features_from(const Comparison& comparison,

@@ -118,8 +118,8 @@ Condition condition_of(const Experiment& experiment, std::size_t index) {
   if (course.max_strain == 0.0)
     course.max_strain = kSeriesStrain;
   else
-    course.max_strain = std::min(
-        kLongestStrain, kStrainStep * std::ceil((kLonger * course.max_strain + kToe) / kStrainStep));
+    course.max_strain =
+        std::min(kLongestStrain, kStrainStep * std::ceil((kLonger * course.max_strain + kToe) / kStrainStep));
   return condition;
 }
 

@@ -12,7 +12,8 @@ struct Condition {
   fs::path beads;  ///< the specimen's own; empty: not measured
   std::vector<std::size_t> observations;  ///< those that it answers, by their place in the experiment
   std::size_t row = 0;                    ///< of a modulus series: its row
-  fs::path network = {};  ///< the specimen's measured bridges, where they are simulated as they are; else empty
+  fs::path network =
+      {};  ///< the specimen's measured bridges, where they are simulated as they are; else empty
 };
 
 /// Whether a condition's test ends at a scan: displacements are simulated apart from the whole curve, so that

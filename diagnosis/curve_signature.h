@@ -43,7 +43,8 @@ struct Loop {
   std::size_t top, bottom, end;
 };
 
-/// Unloadings by 0.2 % of strain or more and to a quarter of the stress or less, of turns up to `last_strain`.
+/// Unloadings by 0.2 % of strain or more and to a quarter of the stress or less, of turns up to
+/// `last_strain`.
 std::vector<Loop> loops_of(const Curve& curve, double last_strain);
 
 /// Strains at which a curve turns back by 0.2 % of strain or more, rising.

@@ -13,9 +13,10 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kShown = 0.8;                     // of runs that must show a feature
+constexpr double kShown = 0.8;                    // of runs that must show a feature
 constexpr int kReadLevels = 6, kReadMembers = 3;  // of effects that only change what instruments read
-constexpr unsigned long kSeedOfHeld = 100000;      // of the noise in fields of runs that are taken for experiments
+constexpr unsigned long kSeedOfHeld =
+    100000;  // of the noise in fields of runs that are taken for experiments
 
 /// The effect that is changed, and nothing else; nullptr: none, a pair, or a believed input.
 const effects::Effect* only_effect_in(const Changes& changes) {
@@ -42,8 +43,8 @@ void widen(Eigen::VectorXd& vector, const Eigen::VectorXd& more) {
 /// A design, and how further runs are read for it.
 struct BankFeatures::Learnt {
   Design design;
-  std::vector<FieldReader> readers;     // of fields_
-  std::vector<Eigen::Index> kept;       // of all features
+  std::vector<FieldReader> readers;  // of fields_
+  std::vector<Eigen::Index> kept;    // of all features
 };
 
 BankFeatures::BankFeatures(Level level, const Experiment& experiment, const BankPlan& plan,
@@ -53,10 +54,12 @@ BankFeatures::BankFeatures(Level level, const Experiment& experiment, const Bank
       scaled_(plan.scaled()),
       name_(experiment.name) {
   for (std::size_t k = 0; k < points_.size(); ++k)
-    values_.push_back(simulated_features(experiment, plan.conditions, observed_, tests[k], points_[k].changes));
+    values_.push_back(
+        simulated_features(experiment, plan.conditions, observed_, tests[k], points_[k].changes));
   if (level == Level::readings)
     for (std::size_t index = 0; index < experiment.observations.size(); ++index)
-      if (auto bank = field_bank(experiment, plan, index, tests)) fields_.emplace_back(index, std::move(*bank));
+      if (auto bank = field_bank(experiment, plan, index, tests))
+        fields_.emplace_back(index, std::move(*bank));
 }
 
 DesignRun BankFeatures::run_of(std::size_t k, Eigen::VectorXd values) const {
@@ -64,7 +67,7 @@ DesignRun BankFeatures::run_of(std::size_t k, Eigen::VectorXd values) const {
   const effects::Effect* effect = only_effect_in(point.changes);
   // What pairs leave is no scatter of the members either.
   const bool draws = point.changes.size() > 1 || (effect && effect->draws);
-  return {point.member, point.id, point.theta, std::move(values), draws, effect && effect->reads_only(),
+  return {point.member,     point.id, point.theta, std::move(values), draws, effect && effect->reads_only(),
           effect != nullptr};
 }
 
@@ -79,7 +82,8 @@ BankFeatures::Learnt BankFeatures::learn(std::vector<std::string>& warnings, int
     const auto of_runs = reader.of_runs(bank, points_);
     std::vector<Eigen::VectorXd> baselines;
     for (std::size_t k = 0; k < points_.size(); ++k)
-      if (bank.of_runs[k] && points_[k].id.empty() && points_[k].member != but) baselines.push_back(of_runs[k]);
+      if (bank.of_runs[k] && points_[k].id.empty() && points_[k].member != but)
+        baselines.push_back(of_runs[k]);
     const auto more = static_cast<Eigen::Index>(features.size());
     observed.features.insert(observed.features.end(), features.begin(), features.end());
     observed.observation.resize(observed.features.size(), observation);
@@ -104,7 +108,8 @@ BankFeatures::Learnt BankFeatures::learn(std::vector<std::string>& warnings, int
       kept.push_back(f);
     else if (observed.level == Level::landmarks)
       warnings.push_back(fmt::format("{}: {} was observed but only {} of {} simulations show it; not used",
-                                     observed.features[f].observation, observed.features[f].name, shown, asked));
+                                     observed.features[f].observation, observed.features[f].name, shown,
+                                     asked));
   }
   if (kept.empty())
     bad_input(
@@ -125,7 +130,8 @@ Design BankFeatures::design(std::vector<std::string>& warnings, int but) const {
   return learn(warnings, but).design;
 }
 
-std::pair<Design, std::vector<KnownRun>> BankFeatures::held_out(int member, int draws, int of_baselines) const {
+std::pair<Design, std::vector<KnownRun>> BankFeatures::held_out(int member, int draws,
+                                                                int of_baselines) const {
   std::vector<std::string> ignored;
   Learnt learnt = learn(ignored, member);
   std::vector<KnownRun> held;
@@ -136,7 +142,8 @@ std::pair<Design, std::vector<KnownRun>> BankFeatures::held_out(int member, int 
       for (std::size_t f = 0; f < fields_.size(); ++f) {
         const auto& field = fields_[f].second.of_runs[k];
         if (!field) break;
-        widen(values, learnt.readers[f].read(*field, kSeedOfHeld + 100 * k + static_cast<unsigned long>(draw)));
+        widen(values,
+              learnt.readers[f].read(*field, kSeedOfHeld + 100 * k + static_cast<unsigned long>(draw)));
       }
       if (values.size() <= learnt.kept.back()) break;
       values = Eigen::VectorXd(values(learnt.kept));

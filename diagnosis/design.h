@@ -31,12 +31,12 @@ class BankFeatures {
   BankFeatures(Level level, const Experiment& experiment, const BankPlan& plan,
                const std::vector<SimulatedTests>& tests);
 
-  /// Without the runs of one member, 0: with all. Features that fewer than four of five runs show are left out, with
-  /// a word in `warnings` where they are landmarks. BadInput where none is left.
+  /// Without the runs of one member, 0: with all. Features that fewer than four of five runs show are left
+  /// out, with a word in `warnings` where they are landmarks. BadInput where none is left.
   Design design(std::vector<std::string>& warnings, int but = 0) const;
 
-  /// The design without one member, and the runs of that member that show all of its features, as other experiments
-  /// would: each `draws` times, those without a change `of_baselines` times.
+  /// The design without one member, and the runs of that member that show all of its features, as other
+  /// experiments would: each `draws` times, those without a change `of_baselines` times.
   std::pair<Design, std::vector<KnownRun>> held_out(int member, int draws, int of_baselines) const;
 
   /// Members whose tests go all the way.
@@ -47,15 +47,16 @@ class BankFeatures {
   Learnt learn(std::vector<std::string>& warnings, int but) const;
   DesignRun run_of(std::size_t point, Eigen::VectorXd values) const;
 
-  ObservedFeatures observed_;             // without those of fields
-  std::vector<Eigen::VectorXd> values_;   // per point; likewise
+  ObservedFeatures observed_;                              // without those of fields
+  std::vector<Eigen::VectorXd> values_;                    // per point; likewise
   std::vector<std::pair<std::size_t, FieldBank>> fields_;  // by observation
   std::vector<DesignPoint> points_;
   bool scaled_ = false;
   std::string name_;  // of the experiment
 };
 
-/// With what instruments would have made of the first baselines that have an effect on nothing but the reading.
+/// With what instruments would have made of the first baselines that have an effect on nothing but the
+/// reading.
 std::pair<BankPlan, std::vector<SimulatedTests>> with_readings(const BankPlan& plan,
                                                                const std::vector<SimulatedTests>& tests);
 

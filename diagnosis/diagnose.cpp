@@ -139,7 +139,8 @@ Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& 
   judge(problem, rules, plan, experiment, diagnosis);
   if (diagnosis.promise.cases == 0)
     diagnosis.warnings.push_back(
-        "the bank is too small to be replayed: how far probabilities, sets and intervals hold is not known, and they are "
+        "the bank is too small to be replayed: how far probabilities, sets and intervals hold is not known, "
+        "and they are "
         "wider by rule");
   if (fresh_runs)
     measure_shrinkage({experiment, plan, problem, beads_folder, make_runs}, diagnosis);

@@ -51,6 +51,12 @@ struct Shrinkage {
   std::vector<std::string> observations;
 };
 
+/// An effect that these observations hardly show, and how large it may be (upper_limit()).
+struct Unseen {
+  std::string effect, unit;
+  double limit = 0.0;
+};
+
 /// What is to be measured next.
 struct NextExperiment {
   std::string observation;                     ///< in words
@@ -85,6 +91,7 @@ struct Diagnosis {
   double set_probability = 0.0;
   std::string nearest_signature;  ///< what naming by the least misfit would say: an effect, or "none"
   Promise promise;                ///< how far all this holds, from the replay
+  std::vector<Unseen> unseen;     ///< those of the promise that are not the best explanation
   double goodness = 1.0;  ///< of the best explanation: probability of a misfit as large by noise alone
   std::vector<std::string> effects;  ///< rows of `signatures` and `separation`
   Eigen::MatrixXd signatures;        ///< effect × feature at the effect's scale, over the feature's noise

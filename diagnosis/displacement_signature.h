@@ -10,7 +10,8 @@ namespace pendular::diagnosis {
 
 /// What the displacements of tracked beads (columns of a `displacements` observation at one strain, without
 /// rigid motion and scale) come to. All are differences without unit; the platen moves along z.
-///   deviatoric_share    strain along z less that across it, of the beads' mean motion over the platen's: less
+///   deviatoric_share    strain along z less that across it, of the beads' mean motion over the platen's:
+///   less
 ///                       than without it where compliance or the ends take a part
 ///   tilt_share          gradient of u_z across the section over the platen's strain
 ///   wandering           scatter about the affine motion over strain × bead spacing

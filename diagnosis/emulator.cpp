@@ -15,10 +15,10 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr int kDegree = 2, kExactDegree = 4;
-constexpr double kLeastRoom = 0.15;      // that a fit leaves a residual, of its variance
+constexpr double kLeastRoom = 0.15;  // that a fit leaves a residual, of its variance
 constexpr double kOutlier = 3.0, kOfMedian = 1.4826;
-constexpr double kOfTheFit = 0.35;       // the fit's own variance over the scatter's
-constexpr double kDrawn = 0.35;          // share of a covariance that goes to its diagonal
+constexpr double kOfTheFit = 0.35;  // the fit's own variance over the scatter's
+constexpr double kDrawn = 0.35;     // share of a covariance that goes to its diagonal
 
 /// Runs of one id, less the baselines of their members.
 struct Group {
@@ -45,7 +45,8 @@ void take_baselines(const std::vector<DesignRun>& runs, Eigen::Index features, R
   responses.offsets =
       Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(baselines.size()), features, std::nan(""));
   for (const auto& [member, of_it] : baselines) {
-    responses.offsets.row(static_cast<Eigen::Index>(responses.members.size())) = of_it.front()->values.transpose();
+    responses.offsets.row(static_cast<Eigen::Index>(responses.members.size())) =
+        of_it.front()->values.transpose();
     responses.members.push_back(member);
   }
   std::vector<Eigen::VectorXd> rows;
@@ -60,7 +61,8 @@ std::vector<Group> groups_of(const std::vector<DesignRun>& runs, const Responses
     const bool below = run.sided && run.theta < 0.0;
     auto group = std::find_if(groups.begin(), groups.end(),
                               [&](const Group& g) { return g.id == run.id && g.below == below; });
-    if (group == groups.end()) group = groups.insert(groups.end(), {run.id, run.draws, run.exact, below, {}, {}});
+    if (group == groups.end())
+      group = groups.insert(groups.end(), {run.id, run.draws, run.exact, below, {}, {}});
     const auto own = std::find(responses.members.begin(), responses.members.end(), run.member);
     Eigen::VectorXd baseline = responses.mean;
     if (own != responses.members.end()) {
@@ -81,8 +83,8 @@ Eigen::MatrixXd pairwise(const Eigen::MatrixXd& rows, double freedom_lost) {
   return (values.transpose() * values).array() / (counts.array() - freedom_lost).max(1.0);
 }
 
-/// Residuals of a fit: over the square root of the room that the fit leaves each, so that they have the scatter's
-/// variance; and over that room, which is by how much a run is missed by a fit without it.
+/// Residuals of a fit: over the square root of the room that the fit leaves each, so that they have the
+/// scatter's variance; and over that room, which is by how much a run is missed by a fit without it.
 struct Residuals {
   Eigen::MatrixXd scaled, missed;
 };
@@ -152,8 +154,8 @@ Eigen::MatrixXd shrunk(const Eigen::MatrixXd& covariance) {
   return positive_part(drawn);
 }
 
-/// Weighs residuals so that their mean square is the least-squares slope of their squares over θ², at the largest θ:
-/// what draws differ by grows with θ, the scatter does not. Returns the scatter's part of it.
+/// Weighs residuals so that their mean square is the least-squares slope of their squares over θ², at the
+/// largest θ: what draws differ by grows with θ, the scatter does not. Returns the scatter's part of it.
 double growth(const Group& group, Eigen::MatrixXd& missed) {
   const auto runs = static_cast<double>(group.theta.size());
   double squares = 0.0, fourths = 0.0;
@@ -167,7 +169,8 @@ double growth(const Group& group, Eigen::MatrixXd& missed) {
 }
 
 /// The response's own covariance: of that by which runs are missed, beyond the scatter.
-void set_draws(const Group& group, Eigen::MatrixXd& missed, const Eigen::MatrixXd& scatter, Response& response) {
+void set_draws(const Group& group, Eigen::MatrixXd& missed, const Eigen::MatrixXd& scatter,
+               Response& response) {
   const double scattered = growth(group, missed);
   response.drawn_at = group.scale();
   response.draws = positive_part(pairwise(missed, 0.0) - scattered * scatter);
@@ -187,7 +190,8 @@ const Signature* Responses::find(const std::string& id) const {
 }
 
 void Responses::add(const std::string& id, bool below, Response response) {
-  auto found = std::find_if(signatures.begin(), signatures.end(), [&](const Signature& s) { return s.id == id; });
+  auto found =
+      std::find_if(signatures.begin(), signatures.end(), [&](const Signature& s) { return s.id == id; });
   if (found == signatures.end()) {
     found = signatures.emplace(signatures.end());
     found->id = id;

@@ -35,9 +35,10 @@ struct Responses {
   void add(const std::string& id, bool below, Response response);
 };
 
-/// Each run less the baseline of its member (the members' mean where that failed), fitted by a quadratic in θ for
-/// an id with three or more magnitudes, by a line for one with fewer; for each sign by itself where runs say so. What effects that do not draw leave is the
-/// scatter; what any leaves beyond that is its own covariance (Signature::draws). Covariances are over the runs that show
+/// Each run less the baseline of its member (the members' mean where that failed), fitted by a quadratic in θ
+/// for an id with two or more magnitudes, by a line for one with one; for each sign by itself where runs say
+/// so. What ids that do not draw leave is the scatter; that by which a fit without it misses a run, beyond
+/// the scatter, is the response's own covariance (Response::draws). Covariances are over the runs that show
 /// both features. Runs that a polynomial cannot follow count no more than three median deviations.
 Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index features);
 

@@ -15,7 +15,8 @@ constexpr int kCells = 81;  // of an effect's range, in which another's nearest 
 
 Weighed none(const ReducedSpace& space, const ReducedGap& gap) {
   const Eigen::Index size = space.size();
-  const Prediction nothing = space.predict(Eigen::VectorXd::Zero(size), {Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)});
+  const Prediction nothing = space.predict(Eigen::VectorXd::Zero(size),
+                                           {Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)});
   const Fit fit = space.fit(gap, nothing);
   return {{"none", fit.log_likelihood, 0.0, {}, fit.misfit}, beside_unknown(space, gap, nothing, fit.misfit)};
 }
@@ -32,7 +33,10 @@ Hypothesis unknown(const std::vector<Weighed>& known, double like_known) {
   };
   const double other = mean(beside);
   if (like.empty()) return {"unknown", other, 0.0, {}, known.front().hypothesis.misfit};
-  return {"unknown", log_sum({other + std::log(1.0 - like_known), mean(like) + std::log(like_known)}), 0.0, {},
+  return {"unknown",
+          log_sum({other + std::log(1.0 - like_known), mean(like) + std::log(like_known)}),
+          0.0,
+          {},
           known.front().hypothesis.misfit};
 }
 
@@ -62,8 +66,8 @@ std::optional<Together> together_of(const std::vector<Together>& all, const Sign
 
 }  // namespace
 
-Weigher::Weigher(const Gap& gap, const std::vector<Signature>& signatures, const std::vector<Together>& together,
-                 const Priors& priors, Pairs which)
+Weigher::Weigher(const Gap& gap, const std::vector<Signature>& signatures,
+                 const std::vector<Together>& together, const Priors& priors, Pairs which)
     : space_(gap, signatures), priors_(priors) {
   for (const auto& signature : signatures) reduced_.push_back(space_.reduced(signature));
   for (const auto& one : reduced_) singles_.emplace_back(std::vector{one}, std::nullopt, space_);

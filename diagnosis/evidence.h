@@ -36,16 +36,17 @@ enum class Pairs { all, run };
 /// Probabilities over none, every effect, every pair of effects, and unknown; most probable first.
 ///
 /// Believed inputs float within their uncertainties (their responses are part of the covariance), so that an
-/// effect earns credit only for what they cannot absorb. Features are reduced to the directions that responses
-/// of all effects span beyond the noise; what lies outside counts for all explanations alike but `unknown`. The
-/// likelihood is the multivariate t of Sellentin & Heavens (2016, MNRAS 456, L132). Magnitudes are integrated
-/// over on a grid, finer about its peak; a priori all in the signature's range are alike, those below its least one aside. A response
-/// is known to a share of itself (Signature::error), draws of an effect scatter by Signature::draws, and two
-/// responses are taken to add to 0.15 of their geometric mean; to half of that where they were run together.
+/// effect earns credit only for what they cannot absorb. Features are reduced to the directions that
+/// responses of all effects span beyond the noise; what lies outside counts for all explanations alike but
+/// `unknown`. The likelihood is the multivariate t of Sellentin & Heavens (2016, MNRAS 456, L132). Magnitudes
+/// are integrated over on a grid, finer about its peak; a priori all in the signature's range are alike,
+/// those below its least one aside. A response is known to a share of itself (Signature::error) and to
+/// Response::draws, at 0.4 to 2.5 times its standard deviations, and two responses are taken to add to 0.15
+/// of their geometric mean; to half of that where they were run together.
 ///
-/// `unknown` is something beside what is known: none or a single effect leaves a residual 1.5, 2.5, 4 or 7 times
-/// as large as noise does, within the span, outside it, or both; or (Priors::like_known) something that does what a
-/// known effect would do.
+/// `unknown` is something beside what is known: none or a single effect leaves a residual 1.5, 2.5, 4 or 7
+/// times as large as noise does, within the span, outside it, or both; or (Priors::like_known) something that
+/// does what a known effect would do.
 std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& signatures,
                               const std::vector<Together>& together = {}, const Priors& priors = {},
                               Pairs pairs = Pairs::all);

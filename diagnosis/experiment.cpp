@@ -157,8 +157,7 @@ void drop_empty_sigmas(Experiment& experiment, Observation& observation) {
       ++it;
       continue;
     }
-    experiment.warnings.push_back(observation.name + ": " + name +
-                                  " holds zeros; it counts as not given");
+    experiment.warnings.push_back(observation.name + ": " + name + " holds zeros; it counts as not given");
     it = observation.columns.erase(it);
   }
 }

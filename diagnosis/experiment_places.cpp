@@ -17,12 +17,12 @@ namespace {
 constexpr double kUm = 1e-6;
 constexpr std::size_t kFewestMembers = 3;
 
-std::vector<Vec3> vectors_at(const Columns& columns, double strain, const char* x, const char* y, const char* z) {
+std::vector<Vec3> vectors_at(const Columns& columns, double strain, const char* x, const char* y,
+                             const char* z) {
   std::vector<Vec3> all;
   const auto& strains = columns.at("strain");
   for (std::size_t k = 0; k < strains.size(); ++k)
-    if (strains[k] == strain)
-      all.push_back(kUm * Vec3(columns.at(x)[k], columns.at(y)[k], columns.at(z)[k]));
+    if (strains[k] == strain) all.push_back(kUm * Vec3(columns.at(x)[k], columns.at(y)[k], columns.at(z)[k]));
   return all;
 }
 
@@ -58,9 +58,9 @@ ScannedMotion scan_of(const Observation& observation, const Overlay& overlay) {
 
 Place place_in(const Experiment& experiment, const Condition& condition, std::size_t index,
                const fs::path& beads_folder, const Overlay& overlay) {
-  const Packing packing =
-      read_packing(beads_of_member(condition, 1, condition.sample, beads_folder).file);
-  const Simulation specimen = effects::actual_simulation(effects::actual_specimen(packing, condition.sample, 1));
+  const Packing packing = read_packing(beads_of_member(condition, 1, condition.sample, beads_folder).file);
+  const Simulation specimen =
+      effects::actual_simulation(effects::actual_specimen(packing, condition.sample, 1));
   std::vector<std::int64_t> ids;
   for (const auto& bead : packing.beads) ids.push_back(bead.id);
   const Observation& observation = experiment.observations[index];
@@ -83,7 +83,8 @@ std::vector<Place> places_in(const Experiment& experiment, const BankPlan& plan,
           throw ComputationFailed("expected at least three simulated scans");
         places.push_back(place_in(experiment, condition, index, beads_folder, overlays[index]));
       } catch (const ComputationFailed& failure) {
-        warnings.push_back(observation.name + ": where in the specimen it differs is not shown: " + failure.what());
+        warnings.push_back(observation.name +
+                           ": where in the specimen it differs is not shown: " + failure.what());
       }
     }
   return places;

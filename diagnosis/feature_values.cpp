@@ -46,7 +46,8 @@ Eigen::MatrixXd measurement_covariance(Level level, const Observation& observati
   Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(kRounds, size);
   for (int round = 0; round < kRounds; ++round) {
     const auto again = features_of(
-        level, observation, observation.kind->perturbed(observation, seed + 0x100 * static_cast<unsigned long>(round)));
+        level, observation,
+        observation.kind->perturbed(observation, seed + 0x100 * static_cast<unsigned long>(round)));
     for (const auto& feature : again)
       for (std::size_t k = 0; k < features.size(); ++k)
         if (features[k].name == feature.name)
@@ -76,7 +77,8 @@ Eigen::MatrixXd block_diagonal(const std::vector<Eigen::MatrixXd>& blocks) {
 
 Eigen::VectorXd ObservedFeatures::values() const {
   Eigen::VectorXd all(static_cast<Eigen::Index>(features.size()));
-  for (std::size_t k = 0; k < features.size(); ++k) all[static_cast<Eigen::Index>(k)] = features[k].compared();
+  for (std::size_t k = 0; k < features.size(); ++k)
+    all[static_cast<Eigen::Index>(k)] = features[k].compared();
   return all;
 }
 

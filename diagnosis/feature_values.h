@@ -22,7 +22,7 @@ struct ObservedFeatures {
   Eigen::MatrixXd measurement;  ///< covariance of the measurement's errors, as features are compared
   Eigen::MatrixXd model;        ///< likewise of the simulation's own
 
-  Eigen::VectorXd values() const;  ///< as they are compared
+  Eigen::VectorXd values() const;           ///< as they are compared
   double sigma(std::size_t feature) const;  ///< of the measurement
 };
 ObservedFeatures observed_features(Level level, const Experiment& experiment);

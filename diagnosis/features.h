@@ -24,8 +24,8 @@ struct Feature {
   double compared() const;
 };
 
-/// Two ways to read columns: landmarks are for words and for what a reader looks at; readings are all that the
-/// columns say, from which explanations are weighed.
+/// Two ways to read columns: landmarks are for words and for what a reader looks at; readings are all that
+/// the columns say, from which explanations are weighed.
 enum class Level { landmarks, readings };
 
 /// What columns of an observation's kind come to: measured ones, or ones that a simulation gives in their

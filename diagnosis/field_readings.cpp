@@ -12,11 +12,12 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kStatedError = 0.2;      // of stated standard errors
-constexpr double kModelShare = 0.15;      // of what members scatter by
-constexpr double kModelFloor = 0.02;      // of a reading
+constexpr double kStatedError = 0.2;         // of stated standard errors
+constexpr double kModelShare = 0.15;         // of what members scatter by
+constexpr double kModelFloor = 0.02;         // of a reading
 constexpr unsigned long kSeedOfRuns = 1000;  // of their noise
-constexpr double kUnstatedSigma = 1e-3;   // of displacements, over the beads' diameter, where nothing is stated
+constexpr double kUnstatedSigma =
+    1e-3;  // of displacements, over the beads' diameter, where nothing is stated
 
 /// The beads of an observation's scans, one after the other, in the order of its field.
 std::vector<FollowedBeads> followed_in(const Experiment& experiment, const Observation& observation) {
@@ -34,7 +35,8 @@ std::vector<FollowedBeads> followed_in(const Experiment& experiment, const Obser
       if (strains[k] != strain) continue;
       const Bead& bead = by_id.at(static_cast<std::int64_t>(observation.column("bead_id")[k]));
       followed.beads.push_back(bead);
-      stated += observation.has("sigma_um") ? observation.column("sigma_um")[k] : M_SQRT2 * 1e6 * bead.sigma_centre;
+      stated +=
+          observation.has("sigma_um") ? observation.column("sigma_um")[k] : M_SQRT2 * 1e6 * bead.sigma_centre;
     }
     followed.sigma_um = stated / static_cast<double>(followed.beads.size());
     if (!(followed.sigma_um > 0.0)) followed.sigma_um = kUnstatedSigma * 1e6 * sample.beads.diameter;
@@ -44,7 +46,8 @@ std::vector<FollowedBeads> followed_in(const Experiment& experiment, const Obser
 }
 
 /// One scan's part of a field.
-Eigen::VectorXd part_of(const Eigen::VectorXd& field, const std::vector<FollowedBeads>& scans, std::size_t scan) {
+Eigen::VectorXd part_of(const Eigen::VectorXd& field, const std::vector<FollowedBeads>& scans,
+                        std::size_t scan) {
   Eigen::Index first = 0;
   for (std::size_t s = 0; s < scan; ++s) first += static_cast<Eigen::Index>(3 * scans[s].beads.size());
   return field.segment(first, static_cast<Eigen::Index>(3 * scans[scan].beads.size()));
@@ -67,8 +70,10 @@ std::optional<FieldBank> field_bank(const Experiment& experiment, const BankPlan
   const auto& field = observation.kind->field;
   if (!field || observation.beads.empty()) return std::nullopt;
   constexpr double um = 1e6;
-  FieldBank bank{observation.name, followed_in(experiment, observation),
-                 um * field(observation, observation.columns), {}};
+  FieldBank bank{observation.name,
+                 followed_in(experiment, observation),
+                 um * field(observation, observation.columns),
+                 {}};
   bool baseline = false;
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
     const auto columns =
@@ -99,13 +104,14 @@ std::vector<Feature> FieldReader::measured(const FieldBank& bank) const {
     const Eigen::VectorXd values = read(part_of(bank.measured, bank.scans, s));
     for (std::size_t n = 0; n < read.size(); ++n)
       found.push_back({bank.observation,
-                       fmt::format("{}_at_{:.2f}_percent", read.names()[n], 100.0 * read.strain()), Scale::network,
-                       false, values[static_cast<Eigen::Index>(n)], 0.0, read.strain()});
+                       fmt::format("{}_at_{:.2f}_percent", read.names()[n], 100.0 * read.strain()),
+                       Scale::network, false, values[static_cast<Eigen::Index>(n)], 0.0, read.strain()});
   }
   return found;
 }
 
-Eigen::VectorXd FieldReader::read(const Eigen::VectorXd& field, unsigned long noise_seed, double share) const {
+Eigen::VectorXd FieldReader::read(const Eigen::VectorXd& field, unsigned long noise_seed,
+                                  double share) const {
   std::vector<Eigen::VectorXd> parts;
   Eigen::Index first = 0;
   for (const auto& statistics : statistics_) {
@@ -134,8 +140,8 @@ Eigen::VectorXd FieldReader::by_noise(const FieldBank& bank, const std::vector<D
   for (std::size_t k = 0; k < bank.of_runs.size(); ++k) {
     if (!bank.of_runs[k] || !points[k].id.empty() || points[k].member == but_) continue;
     const auto seed = static_cast<unsigned long>(points[k].member);
-    const Eigen::VectorXd more = read(*bank.of_runs[k], seed, 1.0 + kStatedError) -
-                                 read(*bank.of_runs[k], seed, 1.0 - kStatedError);
+    const Eigen::VectorXd more =
+        read(*bank.of_runs[k], seed, 1.0 + kStatedError) - read(*bank.of_runs[k], seed, 1.0 - kStatedError);
     sum = count > 0.0 ? Eigen::VectorXd(sum + more) : more;
     count += 2.0;
   }
@@ -145,7 +151,8 @@ Eigen::VectorXd FieldReader::by_noise(const FieldBank& bank, const std::vector<D
 Eigen::MatrixXd field_model_error(const std::vector<Eigen::VectorXd>& baselines) {
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(baselines.front().size()), square = mean;
   for (const auto& one : baselines) mean += one / static_cast<double>(baselines.size());
-  for (const auto& one : baselines) square += (one - mean).cwiseAbs2() / static_cast<double>(baselines.size());
+  for (const auto& one : baselines)
+    square += (one - mean).cwiseAbs2() / static_cast<double>(baselines.size());
   return (kModelShare * kModelShare * square.array() + kModelFloor * kModelFloor).matrix().asDiagonal();
 }
 

@@ -17,8 +17,8 @@ struct FieldBank {
 };
 
 /// Nothing where the beads of the specimen were not measured, or no baseline has a field.
-std::optional<FieldBank> field_bank(const Experiment& experiment, const BankPlan& plan, std::size_t observation,
-                                    const std::vector<SimulatedTests>& tests);
+std::optional<FieldBank> field_bank(const Experiment& experiment, const BankPlan& plan,
+                                    std::size_t observation, const std::vector<SimulatedTests>& tests);
 
 /// Reads fields as numbers (FieldStatistics), learnt from the runs of a bank but those of one member.
 class FieldReader {

@@ -1,7 +1,7 @@
 #include "diagnosis/field_statistics.h"
 
-#include <Eigen/SVD>
 #include <fmt/format.h>
+#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -13,19 +13,20 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kLeastMode = 0.05;      // µm, rms per bead: below it a difference is no mode
-constexpr double kCoherent = 0.3;        // share of the squares that repeats from run to run
-constexpr double kIndependent = 0.05;    // of the largest singular value
-constexpr double kFloor = 0.25;          // of the noise's variance, below which sizes are not told apart
-constexpr double kEnds = 1.25;           // mean diameters from the flat ends
+constexpr double kLeastMode = 0.05;           // µm, rms per bead: below it a difference is no mode
+constexpr double kCoherent = 0.3;             // share of the squares that repeats from run to run
+constexpr double kIndependent = 0.05;         // of the largest singular value
+constexpr double kFloor = 0.25;               // of the noise's variance, below which sizes are not told apart
+constexpr double kEnds = 1.25;                // mean diameters from the flat ends
 constexpr double kSteep = 0.7, kFlat = 0.35;  // cosine of a pair's direction to the axis
-constexpr double kPartScale = 0.2;       // µm, of how far pairs part
+constexpr double kPartScale = 0.2;            // µm, of how far pairs part
 constexpr double kQuantiles[] = {0.5, 0.9, 0.98};
 constexpr double kPairQuantiles[] = {0.02, 0.1, 0.5, 0.9, 0.98};
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -53,8 +54,8 @@ std::map<int, Eigen::VectorXd> baselines_of(const std::vector<BankField>& bank) 
   return found;
 }
 
-/// What fields change by with a magnitude: the line through the origin that fits all runs, since a single run is
-/// its own best mode and leaves nothing.
+/// What fields change by with a magnitude: the line through the origin that fits all runs, since a single run
+/// is its own best mode and leaves nothing.
 struct Change {
   explicit Change(Eigen::Index size) : sum(Eigen::VectorXd::Zero(size)) {}
 
@@ -85,10 +86,9 @@ FieldStatistics::FieldStatistics(const FollowedBeads& followed, const std::vecto
   for (Eigen::Index k = 0; k < modes_.cols(); ++k) names_.push_back(fmt::format("mode_{}", k + 1));
   names_.insert(names_.end(), {"field_size", "left_size", "left_median", "left_tenth", "left_fiftieth"});
   for (const auto& [name, rows] : parts_) names_.push_back("left_" + name);
-  names_.insert(names_.end(),
-                {"pairs_parting", "pairs_sliding", "parting_02", "parting_10", "parting_50", "parting_90",
-                 "parting_98", "closing_share", "closing_left", "opening_share", "opening_left", "steep_parting",
-                 "flat_parting"});
+  names_.insert(names_.end(), {"pairs_parting", "pairs_sliding", "parting_02", "parting_10", "parting_50",
+                               "parting_90", "parting_98", "closing_share", "closing_left", "opening_share",
+                               "opening_left", "steep_parting", "flat_parting"});
 }
 
 void FieldStatistics::learn_modes(const std::vector<BankField>& bank) {

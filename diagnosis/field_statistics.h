@@ -28,8 +28,8 @@ struct FollowedBeads {
   double strain = 0.0;    ///< of the platen
 };
 
-/// Reads a field of some thousand displacements as some forty numbers that repeat from draw to draw of what an
-/// effect leaves to chance.
+/// Reads a field of some thousand displacements as some forty numbers that repeat from draw to draw of what
+/// an effect leaves to chance.
 ///
 /// A field is compared with the mean of the bank's fields without any change. The difference is projected on
 /// the modes of the bank: the mean differences that each effect and input makes at its largest. What is left

@@ -132,6 +132,16 @@ void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hyp
   }
 }
 
+void set_unseen(const std::vector<Hypothesis>& hypotheses, Diagnosis& diagnosis) {
+  const auto& unseen = diagnosis.promise.unseen;
+  for (std::size_t k = 1; k < hypotheses.size(); ++k) {
+    const Hypothesis& h = hypotheses[k];
+    if (std::find(unseen.begin(), unseen.end(), h.id) != unseen.end())
+      diagnosis.unseen.push_back(
+          {h.id, effects::find_effect(h.id, "diagnosis").unit, upper_limit(h.magnitudes.front())});
+  }
+}
+
 void set_groups(const Problem& problem, const Experiment& experiment, Diagnosis& diagnosis) {
   std::vector<std::string> singles;
   for (const auto& id : diagnosis.ambiguity_set)
@@ -141,8 +151,7 @@ void set_groups(const Problem& problem, const Experiment& experiment, Diagnosis&
     for (std::size_t index = 0; index < experiment.observations.size(); ++index) {
       const auto features = features_from(problem.readings, {index});
       if (features.empty()) continue;
-      const Signature signature =
-          part_of({*signature_of(problem.readings, effect)}, features).front();
+      const Signature signature = part_of({*signature_of(problem.readings, effect)}, features).front();
       const auto found = weigh(part_of(problem.readings.gap, features), {signature});
       for (const auto& h : found)
         if (h.id == effect)
@@ -228,8 +237,9 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
       promise_of(problem.features ? replay(experiment, plan, *problem.features, priors, rules.draws)
                                   : std::vector<Replayed>{},
                  rules.confidence);
-  const auto hypotheses = corrected(
-      weigh(readings.gap, readings.signatures, readings.together, priors, Pairs::run), diagnosis.promise.correction);
+  const auto hypotheses =
+      corrected(weigh(readings.gap, readings.signatures, readings.together, priors, Pairs::run),
+                diagnosis.promise.correction);
   set_explanations(problem, hypotheses, rules, plan, diagnosis);
   const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();
   diagnosis.nearest_signature = nearest_signature(hypotheses, directions);
@@ -237,6 +247,7 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   diagnosis.goodness = goodness_of(best.misfit, directions, readings.gap.freedom);
   const AmbiguitySet set = set_of(hypotheses, diagnosis.promise.correction);
   diagnosis.ambiguity_set = set.ids, diagnosis.set_probability = set.probability;
+  set_unseen(hypotheses, diagnosis);
   set_groups(problem, experiment, diagnosis);
   std::vector<std::size_t> all(experiment.observations.size());
   std::iota(all.begin(), all.end(), std::size_t{0});

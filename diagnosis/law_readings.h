@@ -11,8 +11,8 @@ namespace pendular::diagnosis {
 /// other way does enters as a believed input.
 struct LawReading {
   const char* id;
-  const char* name;                ///< for readers
-  void (*other)(Sample& sample);   ///< takes the other way
+  const char* name;               ///< for readers
+  void (*other)(Sample& sample);  ///< takes the other way
 };
 
 /// By as much as engines differ: docs/engines.md.

@@ -9,10 +9,10 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr int kMembers = 4;                             // that each is run on
-constexpr double kPairLeads = 0.01, kLeads = 0.05;      // probabilities
-constexpr std::size_t kMostPairs = 4, kMostSingles = 2; // at a time
-constexpr double kPairSteps = 3.0, kSteps = 12.0;       // of a bank's range, to which magnitudes are rounded
+constexpr int kMembers = 4;                              // that each is run on
+constexpr double kPairLeads = 0.01, kLeads = 0.05;       // probabilities
+constexpr std::size_t kMostPairs = 4, kMostSingles = 2;  // at a time
+constexpr double kPairSteps = 3.0, kSteps = 12.0;        // of a bank's range, to which magnitudes are rounded
 
 /// The nearest step of an effect's range in the bank, at least the first.
 double rounded(const effects::Effect& effect, double theta, double steps) {
@@ -27,15 +27,15 @@ bool was_run(const BankPlan& plan, const Changes& changes) {
     return std::all_of(changes.begin(), changes.end(), [&](const auto& change) {
       const auto found = point.changes.find(change.first);
       // A pair was run where its effects were; a single effect where it was, at this magnitude.
-      return found != point.changes.end() &&
-             (changes.size() > 1 || std::fabs(found->second - change.second) < 1e-9 * std::fabs(change.second));
+      return found != point.changes.end() && (changes.size() > 1 || std::fabs(found->second - change.second) <
+                                                                        1e-9 * std::fabs(change.second));
     });
   });
 }
 
 DesignPoint point_of(const Changes& changes, int member, bool whole) {
-  DesignPoint point{member, changes.begin()->first, changes.begin()->second, whole, draw_seed(member, 0), false,
-                    changes};
+  DesignPoint point{
+      member, changes.begin()->first, changes.begin()->second, whole, draw_seed(member, 0), false, changes};
   if (changes.size() == 2) point.id += "+" + changes.rbegin()->first, point.theta = 1.0;
   return point;
 }
@@ -65,7 +65,8 @@ std::vector<DesignPoint> leading_points(const Problem& problem, const Priors& pr
     if (runs + cost > static_cast<std::size_t>(std::max(0, plan.further))) break;
     runs += cost;
     ++(pair ? pairs : singles);
-    for (int member = 1; member <= kMembers; ++member) points.push_back(point_of(changes, member, !plan.scaled()));
+    for (int member = 1; member <= kMembers; ++member)
+      points.push_back(point_of(changes, member, !plan.scaled()));
   }
   return points;
 }

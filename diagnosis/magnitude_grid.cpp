@@ -11,7 +11,8 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kScales[] = {0.4, 0.63, 1.0, 1.6, 2.5};  // of the standard deviations of a response's own covariance
+constexpr double kScales[] = {0.4, 0.63, 1.0, 1.6,
+                              2.5};  // of the standard deviations of a response's own covariance
 constexpr double kScaleWeights[] = {0.1, 0.24, 0.32, 0.24, 0.1};
 constexpr int kCellsOfOne = 41, kCellsOfTwo = 11;  // of each effect's range
 constexpr int kRefined = 3, kParts = 4;            // how often cells at the peak are cut, and into how many
@@ -24,8 +25,8 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 /// All magnitudes are alike a priori, those below the least one aside.
 double log_prior_of(const Signature& signature, double theta, double width) {
   if (std::fabs(theta) < signature.least) return kNever;
-  const double absent = std::max(0.0, std::min(signature.highest, signature.least) -
-                                          std::max(signature.lowest, -signature.least));
+  const double absent = std::max(
+      0.0, std::min(signature.highest, signature.least) - std::max(signature.lowest, -signature.least));
   return std::log(width / (signature.highest - signature.lowest - absent));
 }
 
@@ -38,11 +39,13 @@ Eigen::VectorXd variance_of(const Signature& reduced, const Eigen::VectorXd& res
 
 }  // namespace
 
-double beside_unknown(const ReducedSpace& space, const ReducedGap& gap, const Prediction& prediction, double misfit) {
+double beside_unknown(const ReducedSpace& space, const ReducedGap& gap, const Prediction& prediction,
+                      double misfit) {
   std::vector<double> terms;
   for (double within : kUnknownFactors)
     for (double outside : kUnknownFactors)
-      if (within > 1.0 || outside > 1.0) terms.push_back(space.widened(gap, prediction, misfit, within, outside));
+      if (within > 1.0 || outside > 1.0)
+        terms.push_back(space.widened(gap, prediction, misfit, within, outside));
   return log_sum(terms) - std::log(static_cast<double>(terms.size()));
 }
 
@@ -75,12 +78,14 @@ MagnitudeGrid::MagnitudeGrid(std::vector<Signature> reduced, std::optional<Toget
                              const ReducedSpace& space)
     : reduced_(std::move(reduced)), together_(std::move(together)), space_(space) {
   std::vector<Cell> whole;
-  for (const auto& one : reduced_) whole.push_back({0.5 * (one.lowest + one.highest), one.highest - one.lowest});
+  for (const auto& one : reduced_)
+    whole.push_back({0.5 * (one.lowest + one.highest), one.highest - one.lowest});
   places_ = places_at(parts_of(whole, reduced_.size() > 1 ? kCellsOfTwo : kCellsOfOne));
 }
 
 /// One or two cells, each cut into so many.
-std::vector<std::vector<MagnitudeGrid::Cell>> MagnitudeGrid::parts_of(const std::vector<Cell>& cells, int parts) {
+std::vector<std::vector<MagnitudeGrid::Cell>> MagnitudeGrid::parts_of(const std::vector<Cell>& cells,
+                                                                      int parts) {
   std::vector<std::vector<Cell>> found = {{}};
   for (const auto& cell : cells) {
     std::vector<std::vector<Cell>> longer;
@@ -153,8 +158,8 @@ Weighed MagnitudeGrid::weigh(const ReducedGap& gap, double least) const {
   const int rounds = coarse_evidence(gap) >= least ? kRefined : 0;
   for (int round = 0; round < rounds && !fitted.empty(); ++round) {
     const auto best = std::max_element(fitted.begin(), fitted.end(), [](const Fitted& a, const Fitted& b) {
-      return a.log_density() < b.log_density();
-    })->place->cells;
+                        return a.log_density() < b.log_density();
+                      })->place->cells;
     std::vector<std::vector<Cell>> cut;
     std::erase_if(fitted, [&](const Fitted& one) {
       const auto& cells = one.place->cells;
@@ -188,7 +193,8 @@ Weighed MagnitudeGrid::weigh(const ReducedGap& gap, double least) const {
 }
 
 /// Mean and interval of one effect's magnitude a posteriori: each cell's weight is spread over its width.
-Magnitude MagnitudeGrid::magnitude(std::size_t effect, const std::vector<Fitted>& fitted, double log_evidence) const {
+Magnitude MagnitudeGrid::magnitude(std::size_t effect, const std::vector<Fitted>& fitted,
+                                   double log_evidence) const {
   std::vector<std::pair<Cell, double>> cells;
   Magnitude found;
   for (const auto& one : fitted) {
@@ -203,7 +209,8 @@ Magnitude MagnitudeGrid::magnitude(std::size_t effect, const std::vector<Fitted>
   };
   const auto quantile = [&](double share) {
     double low = reduced_[effect].lowest, high = reduced_[effect].highest;
-    for (int step = 0; step < 40; ++step) (below(0.5 * (low + high)) < share ? low : high) = 0.5 * (low + high);
+    for (int step = 0; step < 40; ++step)
+      (below(0.5 * (low + high)) < share ? low : high) = 0.5 * (low + high);
     return 0.5 * (low + high);
   };
   found.interval_90 = {quantile(0.05), quantile(0.95)};

@@ -17,11 +17,12 @@ struct Weighed {
 
 /// Mean over the widths of the noise within the span and outside it, of which at least one is larger: what is
 /// unknown may look like the known, or like nothing that is known. Logarithm.
-double beside_unknown(const ReducedSpace& space, const ReducedGap& gap, const Prediction& prediction, double misfit);
+double beside_unknown(const ReducedSpace& space, const ReducedGap& gap, const Prediction& prediction,
+                      double misfit);
 
-/// One effect, or two together, over a grid of magnitudes. What each says is worked out once and compared with any
-/// gap; cells are cut finer about the peak, since a field may say a magnitude far better than a grid over its range
-/// has cells. Keeps a reference to the space.
+/// One effect, or two together, over a grid of magnitudes. What each says is worked out once and compared
+/// with any gap; cells are cut finer about the peak, since a field may say a magnitude far better than a grid
+/// over its range has cells. Keeps a reference to the space.
 class MagnitudeGrid {
  public:
   /// `reduced`: one signature, or two; `together`: of two that were run together, reduced, in their order.

@@ -22,9 +22,9 @@ struct Observation {
   std::string name;
   std::vector<SampleSetting> set;  ///< where this specimen or its test differs from the sample
   fs::path file;
-  fs::path beads;                           ///< the specimen's own beads; empty: not measured
-  std::map<std::string, double> numbers;    ///< keys of the kind that hold numbers (Kind::keys)
-  std::map<std::string, std::string> words; ///< and those that hold words
+  fs::path beads;                            ///< the specimen's own beads; empty: not measured
+  std::map<std::string, double> numbers;     ///< keys of the kind that hold numbers (Kind::keys)
+  std::map<std::string, std::string> words;  ///< and those that hold words
   /// Columns by the names and in the units of the file's header; all of one length.
   Columns columns;
 

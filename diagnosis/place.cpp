@@ -25,7 +25,9 @@ std::pair<double, double> range_of(std::vector<double> values) {
 
 std::string words_of(const Place& place) {
   if (place.count() == 0)
-    return fmt::format("Nowhere among {} beads do experiment and the simulation as believed part beyond noise.", place.ids.size());
+    return fmt::format(
+        "Nowhere among {} beads do experiment and the simulation as believed part beyond noise.",
+        place.ids.size());
   Vec3 low = place.rest.front(), high = low;
   for (const Vec3& p : place.rest) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const Vec3 middle = 0.5 * (low + high);
@@ -43,10 +45,12 @@ std::string words_of(const Place& place) {
   const auto [bottom, top] = range_of(heights);
   const auto [inner, outer] = range_of(distances);
   std::string text = fmt::format(
-      "Experiment and the simulation as believed part about {} of {} beads, at {:.2f} to {:.2f} of the height and {:.2f} to {:.2f} "
+      "Experiment and the simulation as believed part about {} of {} beads, at {:.2f} to {:.2f} of the "
+      "height and {:.2f} to {:.2f} "
       "of the radius",
       place.count(), place.ids.size(), bottom, top, inner, outer);
-  if (std::fabs(change) < 2.0 * sigma) return text + "; whether they are softer or stiffer there cannot be told.";
+  if (std::fabs(change) < 2.0 * sigma)
+    return text + "; whether they are softer or stiffer there cannot be told.";
   const double factor = std::exp(change);
   return text + fmt::format("; the experiment is {} there by {:.0f} \u00b1 {:.0f} %.",
                             change < 0.0 ? "softer" : "stiffer", 100.0 * std::fabs(factor - 1.0),
@@ -71,8 +75,11 @@ Place place_of(const ScannedMotion& scan, const Simulation& specimen,
     bead.push_back(index.at(id));
     place.diameter.push_back(2.0 * specimen.beads.radius[static_cast<std::size_t>(bead.back())]);
   }
-  MovedBeads beads{scan.rest, specimen.beads.mean_diameter(), without_rigid_motion(scan.rest, scan.measured),
-                   scan.sigma, {}};
+  MovedBeads beads{scan.rest,
+                   specimen.beads.mean_diameter(),
+                   without_rigid_motion(scan.rest, scan.measured),
+                   scan.sigma,
+                   {}};
   std::vector<Vec3> simulated(scan.rest.size(), Vec3::Zero());
   for (const auto& member : scan.simulated) {
     beads.members.push_back(without_rigid_motion(scan.rest, member));
@@ -80,8 +87,8 @@ Place place_of(const ScannedMotion& scan, const Simulation& specimen,
       simulated[k] += member[k] / static_cast<double>(scan.simulated.size());
   }
   place.misfit = place_misfit(beads);
-  place.cut = std::max(place.misfit.threshold,
-                       kShareOfLargest * *std::max_element(place.misfit.value.begin(), place.misfit.value.end()));
+  place.cut = std::max(place.misfit.threshold, kShareOfLargest * *std::max_element(place.misfit.value.begin(),
+                                                                                   place.misfit.value.end()));
   place.stiffness = place_stiffness(specimen, scan.strain, bead, simulated, beads);
   place.words = words_of(place);
   return place;

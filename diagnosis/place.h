@@ -27,8 +27,8 @@ struct Place {
   std::vector<double> diameter;  ///< m
   PlaceMisfit misfit;
   PlaceStiffness stiffness;
-  /// Beads with a misfit above this stand out: the threshold, or a third of the largest misfit, so that what a
-  /// strong flaw does to its surroundings does not count as its place.
+  /// Beads with a misfit above this stand out: the threshold, or a third of the largest misfit, so that what
+  /// a strong flaw does to its surroundings does not count as its place.
   double cut = 0.0;
   std::string words;  ///< in a sentence
 

@@ -19,7 +19,7 @@ constexpr double kFalsePlaces = 0.05;
 /// No place below this: of four packings without a flaw one has 1.96, of which its members give 1.55 as the
 /// end of their noise (docs/place.md).
 constexpr double kLeastThreshold = 2.0;
-constexpr int kDraws = 3;          // of noise for each member
+constexpr int kDraws = 3;           // of noise for each member
 constexpr double kOfNoise = 0.866;  // exp⟨ln(1 + z²)⟩ − 1 of normal noise in three components
 
 /// The pairs of neighbours, the variance of a component of their parting, and which are about each bead.
@@ -99,7 +99,8 @@ std::vector<double> values_of(const Surroundings& surroundings, const std::vecto
 std::vector<Vec3> mean_member(const MovedBeads& beads) {
   std::vector<Vec3> mean(beads.size(), Vec3::Zero());
   for (const auto& member : beads.members)
-    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += member[k] / static_cast<double>(beads.members.size());
+    for (std::size_t k = 0; k < mean.size(); ++k)
+      mean[k] += member[k] / static_cast<double>(beads.members.size());
   return mean;
 }
 

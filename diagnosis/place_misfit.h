@@ -6,13 +6,13 @@
 
 namespace pendular::diagnosis {
 
-/// Displacements of the same beads, as measured and as members of the best simulation's ensemble have them. m;
-/// rigid motion and change of scale removed from each.
+/// Displacements of the same beads, as measured and as members of the best simulation's ensemble have them.
+/// m; rigid motion and change of scale removed from each.
 struct MovedBeads {
   std::vector<Vec3> rest;
-  double diameter = 0.0;             ///< mean, of the beads
+  double diameter = 0.0;  ///< mean, of the beads
   std::vector<Vec3> measured;
-  double sigma = 0.0;                ///< stated standard error of a component of `measured`
+  double sigma = 0.0;  ///< stated standard error of a component of `measured`
   std::vector<std::vector<Vec3>> members;
 
   std::size_t size() const { return rest.size(); }
@@ -31,7 +31,8 @@ std::vector<std::vector<Vec3>> null_differences(const MovedBeads& beads, int dra
 struct PlaceMisfit {
   std::vector<Vec3> difference;  ///< measured less simulated, m
   std::vector<double> value;     ///< of the pairs about a bead, in units of the noise; about 1: nothing amiss
-  double threshold = 0.0;        ///< that one specimen in twenty exceeds anywhere although nothing is amiss; 2 or more
+  double threshold =
+      0.0;  ///< that one specimen in twenty exceeds anywhere although nothing is amiss; 2 or more
 };
 
 /// Displacements carry a flaw's effect far; how neighbours part does not. So of each pair of neighbours the

@@ -15,10 +15,11 @@ namespace {
 
 constexpr double kSpacing = 1.6, kShare = 0.7, kCorrelation = 1.5;  // of regions, mean diameters
 constexpr std::size_t kMostRegions = 200;
-constexpr double kNeighbours = 0.064;  // gap of beads whose parting weighs scans against simulation, diameters
-constexpr double kTolerance = 1e-4;    // of linear solves
-constexpr double kFreedom = 4.0;       // of the t distribution of a bead's difference
-constexpr int kRounds = 6;             // of its weights
+constexpr double kNeighbours =
+    0.064;                           // gap of beads whose parting weighs scans against simulation, diameters
+constexpr double kTolerance = 1e-4;  // of linear solves
+constexpr double kFreedom = 4.0;     // of the t distribution of a bead's difference
+constexpr int kRounds = 6;           // of its weights
 constexpr double kSizes[] = {0.05, 0.1, 0.2, 0.4, 0.8, 1.6};  // of changes, before they are seen
 constexpr double kFalsePlaces = 0.05;
 
@@ -50,8 +51,10 @@ Eigen::MatrixXd shares_of(const std::vector<Vec3>& places, const MovedBeads& bea
   Eigen::MatrixXd shares(static_cast<Eigen::Index>(places.size()), static_cast<Eigen::Index>(centres.size()));
   for (Eigen::Index k = 0; k < shares.rows(); ++k) {
     for (Eigen::Index r = 0; r < shares.cols(); ++r)
-      shares(k, r) = -0.5 * (places[static_cast<std::size_t>(k)] - beads.rest[centres[static_cast<std::size_t>(r)]])
-                                .squaredNorm() / (width * width);
+      shares(k, r) = -0.5 *
+                     (places[static_cast<std::size_t>(k)] - beads.rest[centres[static_cast<std::size_t>(r)]])
+                         .squaredNorm() /
+                     (width * width);
     shares.row(k) = (shares.row(k).array() - shares.row(k).maxCoeff()).exp();
     shares.row(k) /= shares.row(k).sum();
   }
@@ -63,8 +66,10 @@ Eigen::MatrixXd prior_of(const MovedBeads& beads, const std::vector<std::size_t>
   Eigen::MatrixXd prior(count, count);
   for (Eigen::Index a = 0; a < count; ++a)
     for (Eigen::Index b = 0; b < count; ++b)
-      prior(a, b) = std::exp(-0.5 * (beads.rest[centres[static_cast<std::size_t>(a)]] -
-                                     beads.rest[centres[static_cast<std::size_t>(b)]]).squaredNorm() /
+      prior(a, b) = std::exp(-0.5 *
+                             (beads.rest[centres[static_cast<std::size_t>(a)]] -
+                              beads.rest[centres[static_cast<std::size_t>(b)]])
+                                 .squaredNorm() /
                              std::pow(kCorrelation * beads.diameter, 2));
   prior.diagonal().array() += 1e-3;
   return prior;
@@ -77,7 +82,8 @@ double weight_of_scans(const MovedBeads& beads, const std::vector<Vec3>& differe
     points[k].centre = beads.rest[k], points[k].diameter = beads.diameter;
   double square = 0.0, count = 0.0;
   for (const auto& pair : candidate_bridges(points, kNeighbours * beads.diameter)) {
-    square += (difference[static_cast<std::size_t>(pair.i)] - difference[static_cast<std::size_t>(pair.j)]).squaredNorm();
+    square += (difference[static_cast<std::size_t>(pair.i)] - difference[static_cast<std::size_t>(pair.j)])
+                  .squaredNorm();
     count += 3.0;
   }
   const double noise = 2.0 * beads.sigma * beads.sigma * count;
@@ -90,12 +96,14 @@ NodeVector seen_motion(const Simulation& specimen, double travel, const std::vec
                        const std::vector<Vec3>& moved, const MovedBeads& beads) {
   NodeVector x = NodeVector::Zero(6 * static_cast<Eigen::Index>(specimen.beads.size() + 2));
   std::vector<int> source(specimen.beads.size(), -1);
-  for (std::size_t k = 0; k < bead.size(); ++k) source[static_cast<std::size_t>(bead[k])] = static_cast<int>(k);
+  for (std::size_t k = 0; k < bead.size(); ++k)
+    source[static_cast<std::size_t>(bead[k])] = static_cast<int>(k);
   for (std::size_t n = 0; n < source.size(); ++n) {
     std::size_t from = static_cast<std::size_t>(std::max(source[n], 0));
     if (source[n] < 0)
       for (std::size_t k = 0; k < bead.size(); ++k)
-        if ((beads.rest[k] - specimen.beads.position[n]).norm() < (beads.rest[from] - specimen.beads.position[n]).norm())
+        if ((beads.rest[k] - specimen.beads.position[n]).norm() <
+            (beads.rest[from] - specimen.beads.position[n]).norm())
           from = k;
     x.segment<3>(6 * static_cast<Eigen::Index>(n)) = moved[from];
   }
@@ -152,9 +160,7 @@ RegionFit fit_regions(const Eigen::MatrixXd& sensitivity, const Eigen::MatrixXd&
       const Eigen::LLT<Eigen::MatrixXd> first(h + p);
       Eigen::VectorXd change = first.solve(load);
       const double freedom = static_cast<double>(rows) - first.solve(h).trace();
-      const auto misfit = [&] {
-        return (difference - sensitivity * change).cwiseAbs2().dot(weight);
-      };
+      const auto misfit = [&] { return (difference - sensitivity * change).cwiseAbs2().dot(weight); };
       const double scale = std::max(1.0, misfit() / freedom);
       const Eigen::LLT<Eigen::MatrixXd> llt(h / scale + p);
       change = llt.solve(load / scale);
@@ -199,8 +205,9 @@ PlaceStiffness place_stiffness(const Simulation& specimen, double strain, const 
   for (Eigen::Index r = 0; r < at_nodes.cols(); ++r) {
     std::vector<double> of_spring;
     for (const auto& spring : network.springs())
-      of_spring.push_back(spring.j < network.free_nodes() ? 0.5 * (at_nodes(spring.i, r) + at_nodes(spring.j, r))
-                                                          : at_nodes(spring.i, r));
+      of_spring.push_back(spring.j < network.free_nodes()
+                              ? 0.5 * (at_nodes(spring.i, r) + at_nodes(spring.j, r))
+                              : at_nodes(spring.i, r));
     const NodeVector change = stiffness_sensitivity(network, x, of_spring, kTolerance);
     for (std::size_t k = 0; k < bead.size(); ++k)
       sensitivity.block<3, 1>(static_cast<Eigen::Index>(3 * k), r) = change.segment<3>(6 * bead[k]);
@@ -210,11 +217,12 @@ PlaceStiffness place_stiffness(const Simulation& specimen, double strain, const 
   Eigen::VectorXd variance(sensitivity.rows());
   const auto of_members = member_variance(beads);
   for (std::size_t k = 0; k < bead.size(); ++k)
-    variance.segment<3>(static_cast<Eigen::Index>(3 * k)).setConstant(beads.sigma * beads.sigma + of_members[k]);
+    variance.segment<3>(static_cast<Eigen::Index>(3 * k))
+        .setConstant(beads.sigma * beads.sigma + of_members[k]);
   const Eigen::MatrixXd prior = prior_of(beads, centres), shares = shares_of(beads.rest, beads, centres);
   const RegionFit fit = fit_regions(sensitivity, prior, variance, rows_of(difference));
-  // Members scatter alike from bead to bead, which single beads' variances do not say: what members themselves
-  // come to, taken for the experiment, scales the errors.
+  // Members scatter alike from bead to bead, which single beads' variances do not say: what members
+  // themselves come to, taken for the experiment, scales the errors.
   std::vector<double> maxima;
   double square = 0.0;
   for (const auto& null : null_differences(beads, 1)) {

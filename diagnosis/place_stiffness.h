@@ -25,8 +25,8 @@ struct PlaceStiffness {
 /// Stiffness changes in regions about 1.6 diameters apart, at most 200, with a Gaussian share of each bead; a
 /// spring has the mean of its beads'. Sensitivities are one linear solve a region. The changes are those most
 /// probable under a normal prior (correlated over 1.5 diameters, its size by the largest evidence) and noise
-/// with a multivariate t a bead (four degrees of freedom), scaled up to what is left. `bead`: of each followed
-/// bead in the simulation. ComputationFailed where the platens are not joined.
+/// with a multivariate t a bead (four degrees of freedom), scaled up to what is left. `bead`: of each
+/// followed bead in the simulation. ComputationFailed where the platens are not joined.
 PlaceStiffness place_stiffness(const Simulation& specimen, double strain, const std::vector<int>& bead,
                                const std::vector<Vec3>& simulated, const MovedBeads& beads);
 

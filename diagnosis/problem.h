@@ -10,10 +10,10 @@ namespace pendular::diagnosis {
 
 /// What is to be explained, and by what.
 struct Problem {
-  Comparison landmarks;  ///< for words, figures and repair
-  Comparison readings;   ///< for the evidence
+  Comparison landmarks;                       ///< for words, figures and repair
+  Comparison readings;                        ///< for the evidence
   std::optional<BankFeatures> features = {};  ///< that the readings were learnt from
-  std::vector<std::string> warnings = {};  ///< features that could not be used, and why
+  std::vector<std::string> warnings = {};     ///< features that could not be used, and why
 };
 
 /// `tests`: of every point of the plan.

@@ -15,8 +15,9 @@ constexpr double kLeastDirection = 0.5;  // singular value, in units of the nois
 constexpr double kLongest = 8.0;         // a response counts no more than this for the directions
 constexpr int kSpanned = 3;              // magnitudes of each sign whose responses span
 constexpr double kFresh = 1.3;           // squares outside, of an observation over those of runs learnt from
-constexpr Eigen::Index kLeastRows = 3;   // from which the variance in directions that none of them shows is learnt
-constexpr std::size_t kLeastKnown = 8;   // runs from which what is outside is learnt
+constexpr Eigen::Index kLeastRows =
+    3;  // from which the variance in directions that none of them shows is learnt
+constexpr std::size_t kLeastKnown = 8;  // runs from which what is outside is learnt
 
 /// Variance per direction of what each row has outside the span of the others.
 double in_fresh_directions(const Eigen::MatrixXd& rows) {
@@ -54,7 +55,8 @@ void ReducedSpace::reduce(Response& response) const {
   response.drawn_outside = std::max(0.0, whole.trace() - response.draws.trace());
   if (response.missed.rows() < kLeastRows) return;
   Eigen::MatrixXd rows(response.missed.rows(), size());
-  for (Eigen::Index r = 0; r < rows.rows(); ++r) rows.row(r) = reduced(response.missed.row(r).transpose()).transpose();
+  for (Eigen::Index r = 0; r < rows.rows(); ++r)
+    rows.row(r) = reduced(response.missed.row(r).transpose()).transpose();
   response.draws.diagonal().array() += in_fresh_directions(rows);
   response.missed = {};
 }
@@ -79,10 +81,12 @@ Prediction ReducedSpace::predict(const Eigen::VectorXd& response, const Errors& 
   if (freedom_ > 0.0 && errors.freedom > 0.0)
     prediction.freedom = 1.0 / (share * share / errors.freedom + (1.0 - share) * (1.0 - share) / freedom_);
   const double p = static_cast<double>(size()), nu = prediction.freedom;
-  prediction.log_volume = prediction.factor.matrixLLT().diagonal().array().log().sum() +
-                          (nu <= 0.0 ? 0.5 * p * std::log(2.0 * M_PI)
-                                     : 0.5 * p * std::log(M_PI * nu) + std::lgamma(0.5 * nu) - std::lgamma(0.5 * (nu + p)));
-  if (dimensions_ > 0.0) prediction.widening = std::sqrt(1.0 + errors.outside / (outside_scale_ * outside_freedom_));
+  prediction.log_volume =
+      prediction.factor.matrixLLT().diagonal().array().log().sum() +
+      (nu <= 0.0 ? 0.5 * p * std::log(2.0 * M_PI)
+                 : 0.5 * p * std::log(M_PI * nu) + std::lgamma(0.5 * nu) - std::lgamma(0.5 * (nu + p)));
+  if (dimensions_ > 0.0)
+    prediction.widening = std::sqrt(1.0 + errors.outside / (outside_scale_ * outside_freedom_));
   return prediction;
 }
 
@@ -93,8 +97,8 @@ Fit ReducedSpace::fit(const ReducedGap& gap, const Prediction& prediction) const
   return fit;
 }
 
-double ReducedSpace::widened(const ReducedGap& gap, const Prediction& prediction, double misfit, double within,
-                             double outside) const {
+double ReducedSpace::widened(const ReducedGap& gap, const Prediction& prediction, double misfit,
+                             double within, double outside) const {
   const double p = static_cast<double>(size()), nu = prediction.freedom, squared = misfit / (within * within);
   return -prediction.log_volume - p * std::log(within) -
          (nu <= 0.0 ? 0.5 * squared : 0.5 * (nu + p) * std::log1p(squared / nu)) +

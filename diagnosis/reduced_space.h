@@ -9,7 +9,8 @@
 
 namespace pendular::diagnosis {
 
-/// A gap in a reduced space: its coordinates within the span of all responses, and the square of what is outside.
+/// A gap in a reduced space: its coordinates within the span of all responses, and the square of what is
+/// outside.
 struct ReducedGap {
   Eigen::VectorXd within;
   double outside = 0.0;
@@ -23,8 +24,9 @@ struct Errors {
   double outside = 0.0;    ///< square outside the span
 };
 
-/// What an explanation says of a gap: the response, the factor of its covariance, noise included, degrees of freedom
-/// of that, minus the logarithm of the density at its peak, and by how much errors widen what is outside the span.
+/// What an explanation says of a gap: the response, the factor of its covariance, noise included, degrees of
+/// freedom of that, minus the logarithm of the density at its peak, and by how much errors widen what is
+/// outside the span.
 struct Prediction {
   Eigen::VectorXd response;
   Eigen::LLT<Eigen::MatrixXd> factor;
@@ -36,8 +38,8 @@ struct Fit {
   double log_likelihood = 0.0, misfit = 0.0;
 };
 
-/// Features in units of their noise, believed inputs included, reduced to the directions that responses of all
-/// effects span beyond it. What lies outside is kept as one number, its square.
+/// Features in units of their noise, believed inputs included, reduced to the directions that responses of
+/// all effects span beyond it. What lies outside is kept as one number, its square.
 class ReducedSpace {
  public:
   ReducedSpace(const Gap& gap, const std::vector<Signature>& signatures);
@@ -54,8 +56,8 @@ class ReducedSpace {
   /// The density is the multivariate t of Sellentin & Heavens (2016, MNRAS 456, L132).
   Fit fit(const ReducedGap& gap, const Prediction& prediction) const;
 
-  /// The log-likelihood of a fit's misfit where the noise's standard deviation is so many times as large within
-  /// the span, and outside it.
+  /// The log-likelihood of a fit's misfit where the noise's standard deviation is so many times as large
+  /// within the span, and outside it.
   double widened(const ReducedGap& gap, const Prediction& prediction, double misfit, double within,
                  double outside) const;
 

@@ -14,7 +14,7 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr double kNegligible = 12.0;  // evidence, as a logarithm, below the best one's
-constexpr int kMoreBaselines = 3;  // draws, over those of other runs
+constexpr int kMoreBaselines = 3;     // draws, over those of other runs
 constexpr std::uint64_t kSeedsOfMember = 1000000;
 
 bool is_effect(const std::string& id) {
@@ -26,7 +26,8 @@ bool is_effect(const std::string& id) {
 class Errors {
  public:
   explicit Errors(const Comparison& comparison)
-      : comparison_(comparison), root_(root_of(comparison.observed.measurement + comparison.observed.model)) {}
+      : comparison_(comparison),
+        root_(root_of(comparison.observed.measurement + comparison.observed.model)) {}
 
   Eigen::VectorXd draw(std::uint64_t seed) const {
     std::uint64_t next = 0;
@@ -50,12 +51,14 @@ class Errors {
 };
 
 std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan& plan,
-                                    const BankFeatures& features, const Priors& priors, int member, int draws) {
+                                    const BankFeatures& features, const Priors& priors, int member,
+                                    int draws) {
   const auto [design, held] = features.held_out(member, draws, kMoreBaselines * draws);
   const Comparison learnt = compare(experiment, plan, design);
   const Weigher weigher(learnt.gap, learnt.signatures, learnt.together, priors, Pairs::run);
   const Errors errors(learnt);
-  std::vector<Eigen::VectorXd> baselines;  // of the size of the runs, which may be smaller than the observed one
+  std::vector<Eigen::VectorXd>
+      baselines;  // of the size of the runs, which may be smaller than the observed one
   for (const auto& run : design.runs)
     if (run.id.empty()) baselines.push_back(run.values);
   const Eigen::VectorXd mean = mean_row(baselines, learnt.simulated.size());

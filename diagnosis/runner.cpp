@@ -9,8 +9,8 @@ namespace pendular::diagnosis {
 std::optional<SimulatedTest> read_outcome(const sweep::RunOutcome& outcome, std::size_t condition,
                                           const std::string& made_for, const Changes& changes,
                                           std::vector<LedgerRow>& ledger) {
-  ledger.push_back(
-      {outcome.hash, made_for + purpose_of(changes), sweep::to_string(outcome.status), outcome.message, condition});
+  ledger.push_back({outcome.hash, made_for + purpose_of(changes), sweep::to_string(outcome.status),
+                    outcome.message, condition});
   if (outcome.status != sweep::RunStatus::done) return std::nullopt;
   SimulatedTest test = read_simulated_test(outcome.folder);
   for (const auto& effect : effects::all_effects())

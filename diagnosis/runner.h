@@ -15,7 +15,8 @@ namespace pendular::diagnosis {
 using MakeRuns = std::function<std::vector<sweep::RunOutcome>(const std::string& name,
                                                               std::span<const sweep::RunRequest> requests)>;
 
-/// Reads a run that is done and books every run in the ledger, as what it was made `for`; nothing where it failed.
+/// Reads a run that is done and books every run in the ledger, as what it was made `for`; nothing where it
+/// failed.
 std::optional<SimulatedTest> read_outcome(const sweep::RunOutcome& outcome, std::size_t condition,
                                           const std::string& made_for, const Changes& changes,
                                           std::vector<LedgerRow>& ledger);

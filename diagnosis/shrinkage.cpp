@@ -109,8 +109,8 @@ class Bench {
       SimulatedTests tests(shop_.plan.conditions.size());
       for (const std::size_t c : needed)
         tests[c] = read_outcome(*outcome++, c, name + ": ", changes, diagnosis_.ledger);
-      const Eigen::VectorXd values =
-          simulated_features(shop_.experiment, shop_.plan.conditions, shop_.problem.landmarks.observed, tests, changes);
+      const Eigen::VectorXd values = simulated_features(shop_.experiment, shop_.plan.conditions,
+                                                        shop_.problem.landmarks.observed, tests, changes);
       for (Eigen::Index f = 0; f < values.size(); ++f)
         if (std::isfinite(values[f])) sum[f] += values[f], count[f] += 1.0;
       if (overlay) add_overlays(tests, changes);
@@ -143,8 +143,8 @@ class Bench {
     for (std::size_t c = 0; c < shop_.plan.conditions.size(); ++c) {
       const auto& answers = shop_.plan.conditions[c].observations;
       if (std::any_of(features.begin(), features.end(), [&](std::size_t f) {
-            return std::find(answers.begin(), answers.end(), shop_.problem.landmarks.observed.observation[f]) !=
-                   answers.end();
+            return std::find(answers.begin(), answers.end(),
+                             shop_.problem.landmarks.observed.observation[f]) != answers.end();
           }))
         needed.push_back(c);
     }

@@ -8,14 +8,16 @@
 
 namespace pendular::diagnosis {
 
-/// What a change of magnitude θ does to the features, Σ θ^(k+1) powers[k], and what draws of it differ by.
+/// What a change of magnitude θ does to the features, Σ θ^(k+1) powers[k], and by how much runs of it differ
+/// from that: draws of an effect differ, and a polynomial is not the effect.
 struct Response {
   std::vector<Eigen::VectorXd> powers;
-  Eigen::MatrixXd draws = {};    ///< covariance of what draws of it differ by, at drawn_at; empty: none
-  double drawn_at = 1.0;         ///< θ of that covariance, which grows with θ²
-  Eigen::MatrixXd missed = {};   ///< by how much runs were missed, left out, at drawn_at: a row each that shows all
-  double drawn_freedom = 0.0;    ///< degrees of freedom of draws; 0: known
-  double drawn_outside = 0.0;    ///< trace of draws outside the span of all responses, of a reduced response
+  Eigen::MatrixXd draws = {};  ///< covariance by which runs of it are missed, at drawn_at; empty: none
+  double drawn_at = 1.0;       ///< θ of that covariance, which grows with θ²
+  Eigen::MatrixXd missed =
+      {};  ///< by how much runs were missed, left out, at drawn_at: a row each that shows all
+  double drawn_freedom = 0.0;  ///< degrees of freedom of draws; 0: known
+  double drawn_outside = 0.0;  ///< trace of draws outside the span of all responses, of a reduced response
 
   Eigen::VectorXd at(double theta) const {
     Eigen::VectorXd sum = theta * powers.back();  // Horner's scheme
@@ -27,12 +29,13 @@ struct Response {
 /// What an effect does, and how large it may be.
 struct Signature : Response {
   std::string id;
-  std::optional<Response> below;  ///< for negative θ, where that is another response: bonds that break do not heal
+  std::optional<Response>
+      below;  ///< for negative θ, where that is another response: bonds that break do not heal
   double lowest = 0.0, highest = 0.0;  ///< of θ
   double scale = 0.0;                  ///< a usual |θ|
   double least = 0.0;                  ///< |θ| below which the effect counts as absent
   double error = 0.1;                  ///< of each feature's response, as a share of it
-  double outside = 0.03;               ///< of what it does outside the span of all responses, over what it does
+  double outside = 0.03;  ///< of what it does outside the span of all responses, over what it does
 
   const Response& response(double theta) const { return theta < 0.0 && below ? *below : *this; }
   Eigen::VectorXd at(double theta) const { return response(theta).at(theta); }

@@ -14,7 +14,8 @@ namespace pendular::diagnosis {
 
 /// A specimen as a simulated scan shows it. SI.
 struct Frame {
-  double strain = 0.0;  ///< platen strain: as it is in a run's frames, as it is read once an instrument read it
+  double strain =
+      0.0;  ///< platen strain: as it is in a run's frames, as it is read once an instrument read it
   double stress = 0.0;  ///< Pa
   std::vector<std::int64_t> ids;
   std::vector<Vec3> rest, displacement;

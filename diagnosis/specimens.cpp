@@ -48,14 +48,15 @@ void move_beads(std::vector<Bead>& beads, std::uint64_t seed) {
   }
 }
 
-/// Pairs as they were measured: what has no bridge has none, undetermined ones stay candidates. `moved`: necks by
-/// their stated errors, as another measurement might have them.
+/// Pairs as they were measured: what has no bridge has none, undetermined ones stay candidates. `moved`:
+/// necks by their stated errors, as another measurement might have them.
 void use_network(const fs::path& path, bool moved, std::uint64_t seed, Packing& packing) {
   for (Bridge bridge : read_bridges(path, packing.beads)) {
     if (bridge.state == BridgeState::undetermined) bridge.state = BridgeState::candidate;
     if (moved && bridge.diameter > 0.0)
       bridge.diameter += bridge.sigma_diameter * random_normal(seed, effects::of_pair(bridge.i, bridge.j));
-    bridge.gap = gap(packing.beads[static_cast<std::size_t>(bridge.i)], packing.beads[static_cast<std::size_t>(bridge.j)]);
+    bridge.gap = gap(packing.beads[static_cast<std::size_t>(bridge.i)],
+                     packing.beads[static_cast<std::size_t>(bridge.j)]);
     const auto at = std::lower_bound(
         packing.bridges.begin(), packing.bridges.end(), bridge,
         [](const Bridge& a, const Bridge& b) { return std::pair(a.i, a.j) < std::pair(b.i, b.j); });
@@ -73,7 +74,8 @@ Packing measured_packing(const Condition& condition, int member, const Sample& c
   if (member > 1 && member < kFirstFresh) move_beads(beads, static_cast<std::uint64_t>(member));
   Packing packing = packing_of(effects::actual_beads(std::move(beads), changed), condition.sample);
   if (!condition.network.empty())
-    use_network(condition.network, member > 1 && member < kFirstFresh, static_cast<std::uint64_t>(member), packing);
+    use_network(condition.network, member > 1 && member < kFirstFresh, static_cast<std::uint64_t>(member),
+                packing);
   packing.provenance = {program_version(),
                         fmt::format("pendular diagnose: member {}", member),
                         static_cast<std::uint64_t>(member),

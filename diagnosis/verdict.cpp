@@ -98,9 +98,14 @@ std::string which(const Diagnosis& diagnosis) {
 std::string promise(const Diagnosis& diagnosis) {
   const auto& p = diagnosis.promise;
   if (p.cases == 0) return "";
-  std::string text = fmt::format(" Of {} replayed runs the set held the truth in {:.0f} % at a mean size of {:.1f}.", p.cases,
-                                 100.0 * p.in_set, p.set_size);
-  if (!p.unseen.empty()) text += fmt::format(" Hardly seen here at any magnitude: {}.", joined(p.unseen, " and "));
+  std::string text =
+      fmt::format(" Of {} replayed runs the set held the truth in {:.0f} % at a mean size of {:.1f}.",
+                  p.cases, 100.0 * p.in_set, p.set_size);
+  std::vector<std::string> hidden;
+  for (const auto& one : diagnosis.unseen)
+    hidden.push_back(fmt::format("{} up to {:.2g} {}", one.effect, one.limit, one.unit));
+  if (!hidden.empty())
+    text += fmt::format(" These observations would hardly show {}.", joined(hidden, " and "));
   return text;
 }
 
@@ -132,7 +137,8 @@ std::string what_next(const Diagnosis& diagnosis) {
 }  // namespace
 
 std::string verdict_of(const Diagnosis& diagnosis) {
-  std::string text = where(diagnosis) + " " + which(diagnosis) + promise(diagnosis) + how_far(diagnosis) + what_next(diagnosis);
+  std::string text = where(diagnosis) + " " + which(diagnosis) + promise(diagnosis) + how_far(diagnosis) +
+                     what_next(diagnosis);
   for (const auto& place : diagnosis.places) text += " " + place.words;
   const auto failed = std::count_if(diagnosis.ledger.begin(), diagnosis.ledger.end(),
                                     [](const LedgerRow& row) { return row.status == "failed"; });

@@ -11,17 +11,17 @@
 
 namespace pendular::diagnosis {
 
-/// weigh() for many gaps that have the same noise and the same responses: what explanations say is worked out once.
-/// `gap.values` are not read. May be called from several threads.
+/// weigh() for many gaps that have the same noise and the same responses: what explanations say is worked out
+/// once. `gap.values` are not read. May be called from several threads.
 class Weigher {
  public:
-  Weigher(const Gap& gap, const std::vector<Signature>& signatures, const std::vector<Together>& together = {},
-          const Priors& priors = {}, Pairs pairs = Pairs::all);
+  Weigher(const Gap& gap, const std::vector<Signature>& signatures,
+          const std::vector<Together>& together = {}, const Priors& priors = {}, Pairs pairs = Pairs::all);
   Weigher(const Weigher&) = delete;  // its parts refer to its space
   Weigher& operator=(const Weigher&) = delete;
 
-  /// `values`: observed less simulated, as Gap::values. Magnitudes of single effects whose evidence is less than
-  /// e^−negligible of the best one's are told coarsely.
+  /// `values`: observed less simulated, as Gap::values. Magnitudes of single effects whose evidence is less
+  /// than e^−negligible of the best one's are told coarsely.
   std::vector<Hypothesis> operator()(const Eigen::VectorXd& values,
                                      double negligible = std::numeric_limits<double>::infinity()) const;
 

@@ -154,19 +154,28 @@ ordered_json promise_of(const Diagnosis& d) {
   const auto replayed = [&](double value) { return p.cases > 0 ? number(value) : ordered_json(nullptr); };
   ordered_json reliability = ordered_json::array(), effects = ordered_json::object();
   for (const auto& bin : p.reliability)
-    reliability.push_back({{"said", number(bin.said)}, {"came_true", number(bin.came_true)}, {"cases", bin.cases}});
+    reliability.push_back(
+        {{"said", number(bin.said)}, {"came_true", number(bin.came_true)}, {"cases", bin.cases}});
   for (const auto& [id, effect] : p.effects)
-    effects[id] = {{"cases", effect.cases}, {"told_from_none", effect.told_from_none}, {"first", effect.first}};
+    effects[id] = {
+        {"cases", effect.cases}, {"told_from_none", effect.told_from_none}, {"first", effect.first}};
   return {{"cases", p.cases},
           {"confidence", number(p.confidence)},
           {"in_set", replayed(p.in_set)},
           {"set_size", replayed(p.set_size)},
           {"theta_held", replayed(p.theta_held)},
+          {"limits_held", replayed(p.limits_held)},
           {"false_alarms", replayed(p.false_alarms)},
           {"temperature", number(p.correction.temperature)},
           {"reliability", reliability},
-          {"effects", effects},
-          {"unseen", p.unseen}};
+          {"effects", effects}};
+}
+
+ordered_json unseen_of(const Diagnosis& d) {
+  ordered_json all = ordered_json::array();
+  for (const auto& one : d.unseen)
+    all.push_back({{"effect", one.effect}, {"limit_95", number(one.limit)}, {"unit", one.unit}});
+  return all;
 }
 
 ordered_json noise_of(const Diagnosis& d) {
@@ -205,6 +214,7 @@ ordered_json to_json(const Diagnosis& d) {
   json["ambiguity_set"] = d.ambiguity_set;
   json["ambiguity_set_probability"] = number(d.set_probability);
   json["promise"] = promise_of(d);
+  json["unseen"] = unseen_of(d);
   json["nearest_signature"] = d.nearest_signature;
   json["goodness"] = number(d.goodness);
   json["shrinkage"] = shrinkage_of(d);

@@ -106,19 +106,25 @@ viz::ReportSection promise_section(const Diagnosis& d) {
   const auto& p = d.promise;
   if (p.cases == 0)
     return section("What this can promise",
-                   "The bank is too small to be replayed: probabilities and sets are widened by rule, not by what runs show.",
+                   "The bank is too small to be replayed: probabilities and sets are widened by rule, not by "
+                   "what runs show.",
                    {});
   std::string text = fmt::format(
-      "{} simulated runs of known truth were diagnosed as if they had been measured, each by a bank without its member. The "
-      "set held the truth in {} % of them (asked for: {} %) at a mean size of {}; `unknown` was in it in {} %; intervals of "
+      "{} simulated runs of known truth were diagnosed as if they had been measured, each by a bank without "
+      "its member. The "
+      "set held the truth in {} % of them (asked for: {} %) at a mean size of {}; `unknown` was in it in {} "
+      "%; intervals of "
       "90 % held the magnitude in {} %.",
       p.cases, per_cent(p.in_set), per_cent(p.confidence), rounded(p.set_size), per_cent(p.false_alarms),
       per_cent(p.theta_held));
-  if (!p.unseen.empty())
-    text += fmt::format(" Not to be told from none with these observations in most runs: {}.", fmt::join(p.unseen, ", "));
+  for (const auto& one : d.unseen)
+    text += fmt::format(" Hardly shown by these observations: {}, if it is there, up to {} {}.", one.effect,
+                        rounded(one.limit), one.unit);
   auto out = section("What this can promise", text, {});
-  out.tables = {to_report(promise_table(d), "Replayed runs of each effect: shares told from none, and named first."),
-                to_report(reliability_table(d), "How often the most probable explanation of a replayed run was right.")};
+  out.tables = {
+      to_report(promise_table(d), "Replayed runs of each effect: shares told from none, and named first."),
+      to_report(reliability_table(d),
+                "How often the most probable explanation of a replayed run was right.")};
   return out;
 }
 

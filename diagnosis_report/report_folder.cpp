@@ -81,8 +81,9 @@ void write_report_folder(const Desk& desk, const Diagnosis& d) {
   make_folder(desk.out);
   const Files files(desk, d);
   const Pictures pictures = keep_figures(desk, d, files);
-  for (const Table& table : {gap_table(d), share_table(d), hypothesis_table(d), noise_table(d),
-                             excluded_table(d), promise_table(d), reliability_table(d), next_table(d), ledger_table(d)})
+  for (const Table& table :
+       {gap_table(d), share_table(d), hypothesis_table(d), noise_table(d), excluded_table(d),
+        promise_table(d), reliability_table(d), next_table(d), ledger_table(d)})
     files.keep(table);
   for (const auto& place : d.places)
     write_polydata(desk.out / (file_name("place_" + place.observation) + ".vtp"), place_polydata(place));

@@ -13,8 +13,8 @@ namespace {
 constexpr int kMembers = 10, kOfMember = 60;
 const std::vector<std::string> kIds = {"none", "a", "b", "c", "unknown"};
 
-/// Runs of known truth whose evidence is that of a single normal reading per explanation, told `sharper` times as sharply
-/// as is right: at 1 the probabilities are those of Bayes' rule.
+/// Runs of known truth whose evidence is that of a single normal reading per explanation, told `sharper`
+/// times as sharply as is right: at 1 the probabilities are those of Bayes' rule.
 std::vector<Replayed> runs(double sharper, double theta_error, std::uint64_t seed) {
   std::vector<Replayed> all;
   for (int k = 0; k < kMembers * kOfMember; ++k) {
@@ -54,6 +54,7 @@ TEST(Calibration, LeavesRightProbabilitiesAlone) {
   }
   EXPECT_NEAR(promise.theta_held, 0.9, 0.04);
   EXPECT_LT(promise.correction.widening_of_others, 1.15);
+  EXPECT_NEAR(promise.limits_held, 0.95, 0.03);
 }
 
 TEST(Calibration, MendsProbabilitiesAndIntervalsThatAreTooSharp) {
@@ -87,7 +88,8 @@ TEST(Calibration, UnknownIsLetInByItsOwnGate) {
   Correction correction;
   correction.level = 0.5, correction.gate = 0.3;
   const auto said = [](double unknown) {
-    std::vector<Hypothesis> all = {{"a", 0.0, 0.9 * (1.0 - unknown), {}, 0.0}, {"b", 0.0, 0.1 * (1.0 - unknown), {}, 0.0}};
+    std::vector<Hypothesis> all = {{"a", 0.0, 0.9 * (1.0 - unknown), {}, 0.0},
+                                   {"b", 0.0, 0.1 * (1.0 - unknown), {}, 0.0}};
     all.insert(unknown > 0.5 ? all.begin() : all.end(), {"unknown", 0.0, unknown, {}, 0.0});
     return all;
   };
@@ -101,7 +103,8 @@ TEST(Calibration, UnknownIsLetInByItsOwnGate) {
 TEST(Calibration, APairStandsBehindWhatItAddsTo) {
   Correction correction;
   correction.level = 0.95;
-  const std::vector<Hypothesis> said = {{"a", 0.0, 0.6, {}, 0.0}, {"a+b", 0.0, 0.36, {}, 0.0}, {"c", 0.0, 0.04, {}, 0.0}};
+  const std::vector<Hypothesis> said = {
+      {"a", 0.0, 0.6, {}, 0.0}, {"a+b", 0.0, 0.36, {}, 0.0}, {"c", 0.0, 0.04, {}, 0.0}};
   const AmbiguitySet set = set_of(said, correction);
   EXPECT_EQ(set.ids, (std::vector<std::string>{"a"}));
   EXPECT_NEAR(set.probability, 0.96, 1e-12);

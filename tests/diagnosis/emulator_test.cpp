@@ -108,7 +108,8 @@ TEST(Emulator, WhatDrawsDifferByIsNotBlownUpBySmallMagnitudes) {
     const double theta = (1 + k % 6) / 6.0;
     const double value = theta + 0.2 * theta * random_normal(8, n) + 0.1 * random_normal(9, n);
     runs.push_back({k % 60, "drawn", theta, Eigen::VectorXd::Constant(1, value), true});
-    runs.push_back({k % 60, "plain", theta, Eigen::VectorXd::Constant(1, theta + 0.1 * random_normal(10, n))});
+    runs.push_back(
+        {k % 60, "plain", theta, Eigen::VectorXd::Constant(1, theta + 0.1 * random_normal(10, n))});
   }
   const auto responses = fit_responses(runs, 1);
   EXPECT_NEAR(std::sqrt(responses.find("drawn")->draws(0, 0)), 0.2, 0.03);

@@ -50,7 +50,8 @@ class FieldReadingsTest : public ::testing::Test {
     plan.size = {1.0};
     const FieldBank bank = field_bank(experiment, plan, 0, tests).value();
     const FieldReader reader(bank, plan.points);
-    Readings readings{reader.measured(bank), reader.of_runs(bank, plan.points), reader.by_noise(bank, plan.points), {}};
+    Readings readings{
+        reader.measured(bank), reader.of_runs(bank, plan.points), reader.by_noise(bank, plan.points), {}};
     readings.model = field_model_error({readings.of_runs.begin(), readings.of_runs.begin() + 6});
     return readings;
   }
