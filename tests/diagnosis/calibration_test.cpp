@@ -54,7 +54,7 @@ TEST(Calibration, LeavesRightProbabilitiesAlone) {
   }
   EXPECT_NEAR(promise.theta_held, 0.9, 0.04);
   EXPECT_LT(promise.correction.widening_of_others, 1.15);
-  EXPECT_NEAR(promise.limits_held, 0.95, 0.03);
+  EXPECT_GE(promise.limits_held, 0.95);  // of either sign: wider than one-sided
 }
 
 TEST(Calibration, MendsProbabilitiesAndIntervalsThatAreTooSharp) {
