@@ -9,6 +9,9 @@
 #include "cli/run_making.h"
 #include "diagnosis/diagnose.h"
 #include "diagnosis/feature_values.h"
+#include "diagnosis/further_measurements.h"
+#include "diagnosis/planning.h"
+#include "diagnosis_report/plan_folder.h"
 #include "diagnosis_report/report_folder.h"
 #include "effects/list.h"
 #include "viz/display.h"
@@ -20,10 +23,10 @@ struct Options {
   Common common;
   RunMaking making;
   fs::path file;
-  bool dry_run = false, no_fresh_runs = false;
+  bool dry_run = false, no_fresh_runs = false, plan = false;
   int levels = 3, runs = diagnosis::BankOptions().runs;
   double confidence = diagnosis::Rules().confidence;
-  std::vector<std::string> leave_out;
+  std::vector<std::string> leave_out, about;
 };
 
 diagnosis::BankOptions bank_options(const Options& options) {
@@ -54,24 +57,58 @@ void tell_cost(const Options& options, const diagnosis::Experiment& experiment) 
   tell_work(options.making, options.common, plan.requests);
 }
 
+diagnosis::MakeRuns maker(const Options& options) {
+  return [&options](const std::string& name, std::span<const sweep::RunRequest> requests) {
+    return make_runs(options.making, options.common, name, requests);
+  };
+}
+
+std::string in_words(const diagnosis::NextSteps& steps) {
+  if (steps.now.cases == 0) return "the bank is too small to tell what measurements would bring";
+  std::string words = fmt::format("A compression curve of a scanned specimen leaves {:.1f} explanations.",
+                                  steps.now.set_size);
+  if (steps.experiments.empty()) return words + " No measurement of the list leaves fewer.";
+  const auto& first = steps.experiments.front();
+  return words + fmt::format(" Best value: {} ({}), which leaves {:.1f}.", first.observation, first.why,
+                             first.outlook.set_size);
+}
+
+/// Before anything is measured.
+void plan(const Options& options, const diagnosis::Experiment& beliefs) {
+  const TemporaryFolder scratch;
+  const fs::path beads =
+      options.dry_run ? scratch.path() : options.making.store_folder(options.common) / "measured";
+  const auto planned = diagnosis::planned_experiment(beliefs, beads);
+  if (options.dry_run) return tell_cost(options, planned);
+  std::set<std::string> about;
+  for (const auto& id : options.about) about.insert(effects::find_effect(id, "--about").id);
+  const auto bank = diagnosis::plan_bank(planned, bank_options(options), beads);
+  diagnosis::Rules rules;
+  rules.confidence = options.confidence;
+  std::vector<diagnosis::LedgerRow> ledger;
+  const auto steps = diagnosis::plan_experiments(planned, bank, beads, maker(options), about, rules, ledger);
+  const viz::Display display;
+  diagnosis_report::write_plan_folder({options.common.out, display}, steps,
+                                      provenance(options.common, {options.file, beliefs.sample_file}));
+  say(in_words(steps));
+}
+
 void run(const Options& options) {
   apply(options.common);
   check(options.making);
+  if (options.plan)
+    if (const auto beliefs = diagnosis::read_beliefs(options.file)) return plan(options, *beliefs);
   const auto experiment = diagnosis::read_experiment(options.file);
   diagnosis::require_features(experiment);
   for (const auto& warning : experiment.warnings) warn(warning);
   if (options.dry_run) return tell_cost(options, experiment);
   const fs::path beads = options.making.store_folder(options.common) / "measured";
-  const auto plan = diagnosis::plan_bank(experiment, bank_options(options), beads);
+  const auto bank = diagnosis::plan_bank(experiment, bank_options(options), beads);
   make_folder(options.common.out);
   diagnosis::Rules rules;
   rules.confidence = options.confidence;
-  auto found = diagnosis::diagnose(
-      experiment, plan, beads,
-      [&](const std::string& name, std::span<const sweep::RunRequest> requests) {
-        return make_runs(options.making, options.common, name, requests);
-      },
-      rules, !options.no_fresh_runs);
+  auto found = diagnosis::diagnose(experiment, bank, beads, maker(options), rules,
+                                   {!options.no_fresh_runs, options.plan});
   found.provenance = provenance(options.common, inputs_of(options, experiment));
   const viz::Display display;
   diagnosis_report::write_report_folder({options.common.out, display}, found);
@@ -93,6 +130,13 @@ void add_diagnose(CLI::App& app) {
   command->add_flag("--dry-run", options->dry_run, "Say how many runs there are and how long they take");
   command->add_flag("--no-fresh-runs", options->no_fresh_runs,
                     "Only say where and which; make no further runs that measure how far the gap shrinks");
+  command->add_flag("--plan", options->plan,
+                    "Make the runs that tell what further measurements would bring; of a sample, or an\n"
+                    "experiment file without observations: before anything is measured");
+  command
+      ->add_option("--about", options->about,
+                   "With --plan, before anything is measured: effects that are to be learnt about")
+      ->delimiter(',');
   command
       ->add_option(
           "--levels", options->levels,

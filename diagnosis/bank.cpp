@@ -81,14 +81,10 @@ class Planner {
   Planner(const Experiment& experiment, const BankOptions& options, const fs::path& folder)
       : experiment_(experiment), options_(options), folder_(folder) {
     plan_.conditions = conditions_of(experiment);
+    plan_.size = sizes_of(plan_.conditions);
     plan_.further = options.runs;
-    for (const auto& condition : plan_.conditions) {
-      const double beads = beads_in(condition);
-      const bool scaled = condition.beads.empty() && beads > kMostBeads;
-      plan_.size.push_back(scaled ? std::cbrt(kBankBeads / beads) : 1.0);
-      measured_ = measured_ && !condition.beads.empty();
-      scaled_ = scaled_ || scaled;
-    }
+    for (const auto& condition : plan_.conditions) measured_ = measured_ && !condition.beads.empty();
+    scaled_ = plan_.scaled();
   }
 
   BankPlan plan() {
@@ -193,6 +189,16 @@ void add_points(const Experiment& experiment, const std::vector<DesignPoint>& po
 
 BankPlan plan_bank(const Experiment& experiment, const BankOptions& options, const fs::path& beads_folder) {
   return Planner(experiment, options, beads_folder).plan();
+}
+
+std::vector<double> sizes_of(const std::vector<Condition>& conditions) {
+  std::vector<double> sizes;
+  for (const auto& condition : conditions) {
+    const double beads = beads_in(condition);
+    const bool scaled = condition.beads.empty() && beads > kMostBeads;
+    sizes.push_back(scaled ? std::cbrt(kBankBeads / beads) : 1.0);
+  }
+  return sizes;
 }
 
 sweep::RunRequest request_of(const Experiment& experiment, const Condition& condition, int member,

@@ -78,6 +78,9 @@ std::uint64_t draw_seed(int member, int draw);
 void add_points(const Experiment& experiment, const std::vector<DesignPoint>& points,
                 const fs::path& beads_folder, BankPlan& plan);
 
+/// Of each condition: of the bank's specimens over the observed one.
+std::vector<double> sizes_of(const std::vector<Condition>& conditions);
+
 /// The run of one condition with some changes, its specimen of the observed size times `size`; `seed` of what
 /// effects draw.
 sweep::RunRequest request_of(const Experiment& experiment, const Condition& condition, int member,

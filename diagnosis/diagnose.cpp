@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "diagnosis/bank_tests.h"
 #include "diagnosis/experiment_places.h"
 #include "diagnosis/leading.h"
 #include "diagnosis/next_experiments.h"
@@ -18,43 +19,9 @@ namespace {
 constexpr int kRounds = 3;              // of runs at the leading explanations
 constexpr double kContradiction = 4.0;  // sigma between two measurements of one thing
 
-/// The bank: its tests by point, made as points are added.
-class Bank {
- public:
-  Bank(const MakeRuns& make_runs, Diagnosis& diagnosis) : make_runs_(make_runs), diagnosis_(diagnosis) {}
-
-  const std::vector<SimulatedTests>& tests() const { return tests_; }
-
-  /// Makes the runs of the plan that were not made yet.
-  void make(const std::string& name, const BankPlan& plan) {
-    const auto outcomes = make_runs_(name, std::span(plan.requests).subspan(made_));
-    tests_.resize(plan.points.size(), SimulatedTests(plan.conditions.size()));
-    std::size_t baselines = 0;
-    std::string why;
-    for (std::size_t k = 0; k < outcomes.size(); ++k) {
-      const auto& [point, condition] = plan.runs[made_ + k];
-      const DesignPoint& of = plan.points[point];
-      auto& test = tests_[point][condition];
-      test = read_outcome(outcomes[k], condition, "", of.changes, diagnosis_.ledger);
-      if (of.id.empty() && test) ++baselines;
-      if (of.id.empty() && !test) why = outcomes[k].message;
-    }
-    if (made_ == 0 && baselines == 0 && !outcomes.empty())
-      throw ComputationFailed(
-          fmt::format("no specimen could be simulated as believed; the last one said: {}", why));
-    made_ = plan.requests.size();
-  }
-
- private:
-  const MakeRuns& make_runs_;
-  Diagnosis& diagnosis_;
-  std::vector<SimulatedTests> tests_;
-  std::size_t made_ = 0;
-};
-
 /// The problem as the bank shows it once nothing new leads, or nothing more may be run.
 Problem followed_problem(const Experiment& experiment, const fs::path& beads_folder, const Rules& rules,
-                         BankPlan& plan, Bank& bank) {
+                         BankPlan& plan, BankTests& bank) {
   bank.make("bank", plan);
   Problem problem = problem_of(experiment, plan, bank.tests());
   for (int round = 0; round < kRounds; ++round) {
@@ -127,12 +94,12 @@ void warn_of_input(const Experiment& experiment, Diagnosis& diagnosis) {
 }  // namespace
 
 Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& beads_folder,
-                   const MakeRuns& make_runs, const Rules& rules, bool fresh_runs) {
+                   const MakeRuns& make_runs, const Rules& rules, const Scope& scope) {
   Diagnosis diagnosis;
   diagnosis.experiment = experiment.name;
   warn_of_input(experiment, diagnosis);
   warn_of_contradictions(experiment, plan, diagnosis);
-  Bank bank(make_runs, diagnosis);
+  BankTests bank(make_runs, diagnosis.ledger);
   const Problem problem = followed_problem(experiment, beads_folder, rules, plan, bank);
   add_overlays(experiment, plan, bank.tests(), diagnosis);
   diagnosis.warnings.insert(diagnosis.warnings.end(), problem.warnings.begin(), problem.warnings.end());
@@ -142,13 +109,23 @@ Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& 
         "the bank is too small to be replayed: how far probabilities, sets and intervals hold is not known, "
         "and they are "
         "wider by rule");
-  if (fresh_runs)
+  if (scope.fresh_runs)
     measure_shrinkage({experiment, plan, problem, beads_folder, make_runs}, diagnosis);
   else
     diagnosis.warnings.push_back(
         "how far the gap shrinks was not measured: no fresh runs were made, as asked");
   diagnosis.places = places_in(experiment, plan, beads_folder, diagnosis.overlays, diagnosis.warnings);
-  diagnosis.next = next_experiments(experiment, diagnosis.explanations);
+  if (diagnosis.ambiguity_set.size() > 1) {
+    const BankInHand in_hand{experiment,
+                             plan,
+                             bank.tests(),
+                             beads_folder,
+                             scope.plan ? &make_runs : nullptr,
+                             rules.priors,
+                             rules.confidence,
+                             experiment.observations.size()};
+    diagnosis.next = next_steps(in_hand, question_after(diagnosis), diagnosis.ledger);
+  }
   diagnosis.verdict = verdict_of(diagnosis);
   return diagnosis;
 }

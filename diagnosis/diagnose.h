@@ -6,11 +6,16 @@
 
 namespace pendular::diagnosis {
 
+/// What is run beside the bank.
+struct Scope {
+  bool fresh_runs = true;  ///< without, nothing is said of how far the gap shrinks
+  bool plan = false;       ///< runs of conditions that the bank lacks, to reckon further measurements
+};
+
 /// Where an experiment and its simulation part, which effect causes it, how far it shrinks once that is
 /// added, and what to measure next. `plan` is plan_bank()'s; runs are made by `make_runs`. BadInput where the
 /// observations show nothing that can be compared; ComputationFailed where no baseline could be simulated.
-/// Without fresh runs nothing is said of how far the gap shrinks.
 Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& beads_folder,
-                   const MakeRuns& make_runs, const Rules& rules = {}, bool fresh_runs = true);
+                   const MakeRuns& make_runs, const Rules& rules = {}, const Scope& scope = {});
 
 }  // namespace pendular::diagnosis

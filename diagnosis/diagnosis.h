@@ -13,6 +13,7 @@
 #include "diagnosis/evidence.h"
 #include "diagnosis/experiment.h"
 #include "diagnosis/gap.h"
+#include "diagnosis/outlook.h"
 #include "diagnosis/place.h"
 
 namespace pendular::diagnosis {
@@ -57,12 +58,21 @@ struct Unseen {
   double limit = 0.0;
 };
 
-/// What is to be measured next.
+/// A measurement that could be made next, and what is expected of it.
 struct NextExperiment {
-  std::string observation;                     ///< in words
-  double expected_probability_resolved = 0.0;  ///< that one explanation has four fifths afterwards
-  double cost = 1.0;                           ///< in units of one compression test
+  std::string observation;  ///< in words
   std::string why;
+  double cost = 1.0;     ///< in units of one compression test
+  Outlook outlook = {};  ///< once it is made; without cases where runs are missing
+  double gain = 0.0;     ///< entropy that it takes off, bits
+  std::size_t runs = 0;  ///< simulations that are missing to reckon it
+};
+
+/// What could be measured next.
+struct NextSteps {
+  Outlook
+      now;  ///< of the experiment as it is, over what is in question; no cases: nothing is, or too few runs
+  std::vector<NextExperiment> experiments;  ///< best value for its cost first; those that lack runs last
 };
 
 /// One simulated test in the ledger.
@@ -101,7 +111,7 @@ struct Diagnosis {
   Shrinkage fitted, withheld;
   double retuned = 0.0, wrong = 0.0;  ///< fractions of the withheld gap that the controls close
   std::string wrong_effect;           ///< of that control; empty: none was made
-  std::vector<NextExperiment> next;
+  NextSteps next;
   std::vector<LedgerRow> ledger;
   std::vector<Overlay> overlays;
   std::vector<Place> places;  ///< where in the specimens scans differ

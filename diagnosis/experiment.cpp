@@ -171,7 +171,10 @@ Sample Experiment::sample_of(const Observation& observation) const {
   });
 }
 
-Experiment read_experiment(const fs::path& path) {
+namespace {
+
+/// The file without what its observations hold.
+Experiment read_sections(const fs::path& path) {
   const std::string file = path.string();
   const toml::table root = parse_toml(read_text(path), file);
   Experiment experiment;
@@ -188,9 +191,17 @@ Experiment read_experiment(const fs::path& path) {
   }
   if (experiment.sample_file.empty())
     bad_input("{}: experiment.sample is missing, expected a sample file", file);
-  if (experiment.observations.empty()) bad_input("{}: found no [[observation]], expected at least one", file);
   if (experiment.name.empty()) experiment.name = path.stem().string();
   experiment.sample = read_sample(experiment.sample_file);
+  return experiment;
+}
+
+}  // namespace
+
+Experiment read_experiment(const fs::path& path) {
+  Experiment experiment = read_sections(path);
+  if (experiment.observations.empty())
+    bad_input("{}: found no [[observation]], expected at least one", path.string());
   for (auto& observation : experiment.observations) {
     if (observation.kind->check)
       observation.kind->check(experiment.sample_of(observation), observation, experiment.warnings);
@@ -202,6 +213,16 @@ Experiment read_experiment(const fs::path& path) {
   std::vector<std::vector<Bead>> tables;
   for (const auto& one : files) tables.push_back(read_beads(one));
   experiment.contacts = contact_peak(tables);
+  return experiment;
+}
+
+std::optional<Experiment> read_beliefs(const fs::path& path) {
+  const toml::table root = parse_toml(read_text(path), path.string());
+  if (root.contains("observation")) return std::nullopt;
+  if (root.contains("experiment")) return read_sections(path);
+  Experiment experiment;
+  experiment.name = path.stem().string(), experiment.sample_file = path;
+  experiment.sample = read_sample(path);
   return experiment;
 }
 

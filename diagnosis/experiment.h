@@ -33,4 +33,8 @@ struct Experiment {
 /// cent).
 Experiment read_experiment(const fs::path& path);
 
+/// What is believed of specimens of which nothing was measured: an experiment file without observations, or
+/// the sample itself. Nothing where the file states observations. BadInput as read_experiment().
+std::optional<Experiment> read_beliefs(const fs::path& path);
+
 }  // namespace pendular::diagnosis

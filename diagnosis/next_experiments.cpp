@@ -1,168 +1,216 @@
 #include "diagnosis/next_experiments.h"
 
-#include <algorithm>
-#include <functional>
-#include <set>
+#include <fmt/format.h>
 
-#include "diagnosis/curve_signature.h"
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "diagnosis/design.h"
+#include "diagnosis/further_measurements.h"
 #include "diagnosis/judgement.h"
-#include "diagnosis/kinds/kind.h"
+#include "effects/list.h"
 
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kSettled = 0.8;
+constexpr double kInQuestion = 0.02;    // probability from which an effect is
+constexpr double kSpacing = 1.0 / 6.0;  // of magnitudes in a bank, over its largest
+constexpr double kOfInterval = 3.29;    // standard deviations in an interval of 90 %
+constexpr double kGain = 0.02;          // bits below which nothing is gained
+constexpr double kCases = 240.0;        // replayed at least
 
-bool has(const Experiment& experiment, const Kind& kind) {
-  return std::any_of(experiment.observations.begin(), experiment.observations.end(),
-                     [&](const Observation& o) { return o.kind == &kind; });
+bool same(const Condition& a, const Condition& b) {
+  return a.beads == b.beads && a.network == b.network && sample_text(a.sample) == sample_text(b.sample);
 }
 
-/// Whether observations of compression differ in what a function makes of their samples.
-bool varied(const Experiment& experiment, const std::function<double(const Sample&)>& of) {
-  std::set<double> found;
-  for (const auto& o : experiment.observations)
-    if (o.kind == &kinds::compression()) found.insert(of(experiment.sample_of(o)));
-  return found.size() > 1;
-}
+/// An experiment over what a bank has, and what must be run beside it.
+class Prospect {
+ public:
+  Prospect(const BankInHand& bank, Experiment experiment, const std::set<std::string>& effects)
+      : bank_(bank), experiment_(std::move(experiment)) {
+    plan_.conditions = conditions_of(experiment_);
+    plan_.size = sizes_of(plan_.conditions);
+    plan_.absent = bank.plan.absent;
+    for (const auto& effect : effects::all_effects())
+      if (!effects.contains(effect.id)) plan_.absent.emplace(effect.id, "not in question");
+    for (std::size_t k = 0; k < bank.plan.points.size(); ++k) {
+      const DesignPoint& point = bank.plan.points[k];
+      if (point.changes.size() > 1 || (is_effect(point) && !effects.contains(point.id))) continue;
+      plan_.points.push_back(point);
+      tests_.push_back(known_tests(k));
+    }
+  }
 
-bool unloads(const Experiment& experiment) {
-  return std::any_of(experiment.observations.begin(), experiment.observations.end(),
-                     [](const Observation& o) {
-                       return o.kind == &kinds::compression() &&
-                              !unloading_strains({o.column("strain"), o.column("stress_pa")}).empty();
-                     });
-}
+  std::size_t missing() const { return runs_.size(); }
 
-/// A measurement, the effects whose presence it settles by itself, and what it costs in compression tests.
-struct Candidate {
-  std::string name;
-  std::set<std::string> settles;
-  double cost;
-  std::string why;
-  bool done;
+  void make(const std::string& name, std::vector<LedgerRow>& ledger) {
+    const auto outcomes = (*bank_.make_runs)(name, requests_);
+    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+      const auto& [point, condition] = runs_[k];
+      tests_[point][condition] =
+          read_outcome(outcomes[k], condition, name + ": ", plan_.points[point].changes, ledger);
+    }
+    runs_.clear(), requests_.clear();
+  }
+
+  /// Every run diagnosed with all that the experiment has; nothing where no run shows what was added.
+  std::vector<Replayed> replayed() {
+    for (std::size_t index = bank_.measured; index < experiment_.observations.size(); ++index) {
+      const auto columns = as_believed(index);
+      if (!columns) return {};
+      show(experiment_.observations[index], *columns);
+    }
+    const auto [plan, tests] = with_readings(plan_, tests_);
+    const BankFeatures features(Level::readings, experiment_, plan, tests);
+    double runs = 0.0;
+    for (const auto& point : plan.points) runs += point.id.empty() || is_effect(point);
+    return replay(experiment_, plan, features, bank_.priors, static_cast<int>(std::ceil(kCases / runs)));
+  }
+
+ private:
+  static bool is_effect(const DesignPoint& point) {
+    const auto& all = effects::all_effects();
+    return std::any_of(all.begin(), all.end(), [&](const auto& effect) { return effect.id == point.id; });
+  }
+
+  /// The tests of a point that the bank has; the others are asked for.
+  SimulatedTests known_tests(std::size_t point) {
+    SimulatedTests tests(plan_.conditions.size());
+    const DesignPoint& of = bank_.plan.points[point];
+    for (std::size_t c = 0; c < plan_.conditions.size(); ++c) {
+      const auto& all = bank_.plan.conditions;
+      const auto found = std::find_if(all.begin(), all.end(),
+                                      [&](const Condition& one) { return same(one, plan_.conditions[c]); });
+      if (found != all.end()) {
+        tests[c] = bank_.tests[point][static_cast<std::size_t>(found - all.begin())];
+      } else if (!of.scans_only || ends_at_scan(plan_.conditions[c])) {
+        runs_.push_back({plan_.points.size() - 1, c});
+        requests_.push_back(request_of(experiment_, plan_.conditions[c], of.member, of.seed, of.changes,
+                                       bank_.beads_folder, of.whole ? 1.0 : plan_.size[c]));
+      }
+    }
+    return tests;
+  }
+
+  std::optional<Columns> as_believed(std::size_t observation) const {
+    for (std::size_t k = 0; k < plan_.points.size(); ++k)
+      if (plan_.points[k].id.empty() && plan_.points[k].whole)
+        if (auto columns = simulated_columns(experiment_, plan_.conditions, observation, tests_[k], {}))
+          return columns;
+    return std::nullopt;
+  }
+
+  const BankInHand& bank_;
+  Experiment experiment_;
+  BankPlan plan_;
+  std::vector<SimulatedTests> tests_;
+  std::vector<BankPlan::Run> runs_;
+  std::vector<sweep::RunRequest> requests_;
 };
 
-std::vector<Candidate> candidates(const Experiment& experiment) {
-  const bool followed = has(experiment, kinds::displacements());
-  return {{"the platens pressed on a steel block",
-           {"machine_compliance"},
-           0.2,
-           "the compliance of frame and load cell without a specimen",
-           false},
-          {"a specimen of half the height",
-           {"machine_compliance", "platen_tilt", "platen_roughness"},
-           1.0,
-           "what sits at the ends or in the machine counts twice as much, what sits in the bridges the same",
-           varied(experiment, [](const Sample& s) { return s.specimen.height; })},
-          {"a specimen with a polymer four times as stiff",
-           {"machine_compliance", "polymer_nonlinearity", "bead_friction", "platen_friction"},
-           1.0,
-           "a compliance in series grows with stiffness, geometry does not",
-           varied(experiment, [](const Sample& s) { return s.bridges.youngs_modulus; }) ||
-               has(experiment, kinds::modulus_series())},
-          {"the same test ten times as fast",
-           {"polymer_viscoelasticity", "loading_rate"},
-           1.0,
-           "only what takes time depends on the rate",
-           varied(experiment,
-                  [](const Sample& s) { return s.compression.speed_si.value_or(s.compression.speed); })},
-          {"unloading loops at three strains",
-           {"bond_damage", "polymer_nonlinearity", "polymer_viscoelasticity", "bead_friction"},
-           0.5,
-           "damage lowers the unloading modulus with the strain reached; a softer law does not",
-           unloads(experiment)},
-          {"lateral strain at mid-height",
-           {"bridge_bending", "platen_friction", "bead_friction"},
-           0.3,
-           "rearrangement and the ends show in the lateral ratio, a softer polymer does not",
-           has(experiment, kinds::lateral_strain())},
-          {"twenty single bridges by micropipettes",
-           {"polymer_nonlinearity", "bridge_bending", "polymer_viscoelasticity"},
-           1.0,
-           "stiffness and course of a bridge without the network",
-           has(experiment, kinds::bridge_stiffness())},
-          {"necks counted and measured in a tomogram",
-           {"missing_bridges", "bridge_diameter_spread", "funicular_bridges"},
-           0.7,
-           "which candidate pairs have a bridge, and how thick it is",
-           has(experiment, kinds::coordination()) && has(experiment, kinds::bridge_diameters())},
-          {"gaps of bridged pairs from a tomogram at sub-voxel precision",
-           {"bridge_gap_spread", "position_error"},
-           0.7,
-           "the mean excess gap by itself",
-           has(experiment, kinds::bridge_gaps())},
-          {"a second scan under load",
-           {"machine_compliance", "platen_tilt", "platen_roughness", "residual_stress"},
-           1.0,
-           "strain inside the specimen against platen travel, and where it goes",
-           followed},
-          {"a calibration sphere scanned with the specimen",
-           {"voxel_scale", "diameter_bias", "position_error"},
-           0.3,
-           "voxel size and the threshold's bias by themselves",
-           false},
-          {"sliding friction of two glued beads, and of a bead on the platen",
-           {"bead_friction", "platen_friction"},
-           0.5,
-           "both coefficients by themselves",
-           false},
-          {"pull-off of single bridges",
-           {"interface_strength", "bond_damage"},
-           1.0,
-           "the interfacial energy and how a bond goes, without the network",
-           has(experiment, kinds::broken_bonds())},
-          {"the simulation at half the speed", {"loading_rate"}, 0.1, "needs no experiment", false}};
+std::string truth_of(const Replayed& one) {
+  return one.truth.empty() ? "none" : one.truth.begin()->first;
 }
 
-/// Probability of the most probable explanation among those that stay.
-double largest_share(const std::vector<Explanation>& explanations,
-                     const std::function<bool(const Explanation&)>& stays) {
-  double sum = 0.0, most = 0.0;
-  for (const auto& e : explanations) {
-    if (!stays(e)) continue;
-    sum += e.probability;
-    most = std::max(most, e.probability);
-  }
-  return sum > 0.0 ? most / sum : 0.0;
+/// How likely a magnitude is by what is known of it, at the resolution of a bank.
+double likelihood(const Magnitude& known, double theta) {
+  const double width = (known.interval_90.second - known.interval_90.first) / kOfInterval;
+  const double largest = std::max(std::fabs(known.interval_90.first), std::fabs(known.interval_90.second));
+  const double sd = std::hypot(width, kSpacing * largest);
+  return std::exp(-0.5 * std::pow((theta - known.mean) / sd, 2));
 }
 
-/// Which of a candidate's effects an explanation holds: what the measurement would find if it is the truth.
-std::set<std::string> found_if(const Explanation& truth, const Candidate& candidate) {
-  std::set<std::string> found;
-  for (const auto& effect : effects_in(truth.id))
-    if (candidate.settles.contains(effect)) found.insert(effect);
-  return found;
+/// Of runs of one truth, that share its probability.
+std::function<double(const Replayed&)> weights_of(const std::vector<Replayed>& replayed,
+                                                  const Question& question) {
+  const auto closeness = [&question](const Replayed& one) {
+    const auto known = question.magnitudes.find(truth_of(one));
+    return known == question.magnitudes.end() || one.truth.empty()
+               ? 1.0
+               : likelihood(known->second, one.truth.begin()->second);
+  };
+  std::map<std::string, double> sums;
+  for (const auto& one : replayed)
+    if (one.truth.size() < 2) sums[truth_of(one)] += closeness(one);
+  return [sums, closeness, &question](const Replayed& one) {
+    const auto probability = question.probabilities.find(truth_of(one));
+    const double sum = sums.at(truth_of(one));
+    return probability == question.probabilities.end() || sum <= 0.0
+               ? 0.0
+               : probability->second * closeness(one) / sum;
+  };
 }
 
-double expected(const std::vector<Explanation>& explanations, const Candidate& candidate) {
-  double resolved = 0.0;
-  for (const auto& truth : explanations) {
-    const auto found = found_if(truth, candidate);
-    const double share =
-        largest_share(explanations, [&](const Explanation& e) { return found_if(e, candidate) == found; });
-    if (share >= kSettled) resolved += truth.probability;
-  }
-  return resolved;
+Outlook outlook(const std::vector<Replayed>& replayed, const Question& question, double confidence) {
+  return outlook_of(replayed, confidence, weights_of(replayed, question));
+}
+
+bool settles_something(const FurtherMeasurement& measurement, const Question& question) {
+  return std::any_of(measurement.settles.begin(), measurement.settles.end(),
+                     [&](const std::string& id) { return question.effects.contains(id); });
+}
+
+/// By gain per cost, those that lack runs last.
+bool better(const NextExperiment& a, const NextExperiment& b) {
+  if ((a.outlook.cases > 0) != (b.outlook.cases > 0)) return a.outlook.cases > 0;
+  return a.gain / a.cost > b.gain / b.cost;
 }
 
 }  // namespace
 
-std::vector<NextExperiment> next_experiments(const Experiment& experiment,
-                                             const std::vector<Explanation>& explanations) {
-  const double now = largest_share(explanations, [](const Explanation&) { return true; });
-  std::vector<NextExperiment> next;
-  if (now >= kSettled) return next;
-  for (const auto& candidate : candidates(experiment)) {
-    if (candidate.done) continue;
-    const double resolved = expected(explanations, candidate);
-    if (resolved > 0.05) next.push_back({candidate.name, resolved, candidate.cost, candidate.why});
+Question question_after(const Diagnosis& diagnosis) {
+  Question question;
+  const auto& set = diagnosis.ambiguity_set;
+  for (const auto& e : diagnosis.explanations) {
+    const bool in = e.probability >= kInQuestion || std::find(set.begin(), set.end(), e.id) != set.end();
+    if (!in || e.excluded || e.id == "unknown") continue;
+    if (e.id == "none") question.probabilities["none"] = e.probability;
+    for (const auto& id : effects_in(e.id)) question.effects.insert(id);
   }
-  std::stable_sort(next.begin(), next.end(), [](const auto& a, const auto& b) {
-    return a.expected_probability_resolved / (0.5 + a.cost) >
-           b.expected_probability_resolved / (0.5 + b.cost);
-  });
-  return next;
+  for (const auto& e : diagnosis.explanations)
+    if (question.effects.contains(e.id)) {
+      question.probabilities[e.id] = e.probability;
+      question.magnitudes[e.id] = e.magnitudes.front();
+    }
+  return question;
+}
+
+Question question_before(const BankPlan& plan, const std::set<std::string>& about) {
+  Question question;
+  question.probabilities["none"] = 1.0;
+  for (const auto& effect : effects::all_effects()) {
+    if (plan.absent.contains(effect.id)) continue;
+    question.effects.insert(effect.id);
+    if (about.empty() || about.contains(effect.id)) question.probabilities[effect.id] = 1.0;
+  }
+  return question;
+}
+
+NextSteps next_steps(const BankInHand& bank, const Question& question, std::vector<LedgerRow>& ledger) {
+  NextSteps steps;
+  const auto now = Prospect(bank, bank.experiment, question.effects).replayed();
+  steps.now = outlook(now, question, bank.confidence);
+  if (steps.now.cases == 0) return steps;
+  for (const auto& measurement : further_measurements()) {
+    NextExperiment next{measurement.name, measurement.why, measurement.cost};
+    if (!measurement.added) {
+      if (!settles_something(measurement, question)) continue;
+      next.outlook = outlook(knowing(now, measurement.settles), question, bank.confidence);
+    } else if (auto more = measurement.added(bank.experiment)) {
+      Prospect prospect(bank, std::move(*more), question.effects);
+      if (bank.make_runs) prospect.make(measurement.name, ledger);
+      next.runs = prospect.missing();
+      if (next.runs == 0) next.outlook = outlook(prospect.replayed(), question, bank.confidence);
+    } else {
+      continue;
+    }
+    next.gain = next.outlook.cases > 0 ? steps.now.entropy - next.outlook.entropy : 0.0;
+    if (next.runs > 0 || next.gain > kGain) steps.experiments.push_back(std::move(next));
+  }
+  std::stable_sort(steps.experiments.begin(), steps.experiments.end(), better);
+  return steps;
 }
 
 }  // namespace pendular::diagnosis

@@ -1,14 +1,45 @@
 #pragma once
 
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
 #include "diagnosis/diagnosis.h"
+#include "diagnosis/evidence.h"
+#include "diagnosis/runner.h"
 
 namespace pendular::diagnosis {
 
-/// Further measurements that the experiment does not have, best value for its cost first: of each, the
-/// expected probability that one explanation has four fifths afterwards. A measurement tells whether one of
-/// the effects that it bears on is there, and takes the others' part no further; so the expectation is over
-/// the present probabilities. Empty where one explanation has four fifths already.
-std::vector<NextExperiment> next_experiments(const Experiment& experiment,
-                                             const std::vector<Explanation>& explanations);
+/// What is in question, and how likely each answer is.
+struct Question {
+  std::set<std::string> effects;                ///< the library that is left
+  std::map<std::string, double> probabilities;  ///< of these and of "none", up to a factor
+  std::map<std::string, Magnitude> magnitudes;  ///< where something is known of them
+};
+
+/// The effects that lead or are in the set, by their probabilities and magnitudes a posteriori.
+Question question_after(const Diagnosis& diagnosis);
+
+/// Every effect of the plan alike, or those of `about` alone where it has any, and none.
+Question question_before(const BankPlan& plan, const std::set<std::string>& about);
+
+/// A bank, and what may be done to it.
+struct BankInHand {
+  const Experiment& experiment;
+  const BankPlan& plan;
+  const std::vector<SimulatedTests>& tests;  ///< of every point of the plan
+  const fs::path& beads_folder;
+  const MakeRuns* make_runs;  ///< nullptr: none is made
+  Priors priors;
+  double confidence = 0.95;
+  std::size_t measured = 0;  ///< observations of the experiment that were made; the others are planned
+};
+
+/// What further measurements are expected to bring: each is added to the experiment as it would be planned,
+/// runs of the bank are taken for the truth, and diagnosed with it (replay()). Conditions that the bank lacks
+/// are run, and booked in the ledger, where that is allowed. A measurement that is not of a specimen tells
+/// for sure.
+NextSteps next_steps(const BankInHand& bank, const Question& question, std::vector<LedgerRow>& ledger);
 
 }  // namespace pendular::diagnosis

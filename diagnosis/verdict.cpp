@@ -128,10 +128,11 @@ std::string how_far(const Diagnosis& diagnosis) {
 }
 
 std::string what_next(const Diagnosis& diagnosis) {
-  if (diagnosis.next.empty()) return "";
-  const auto& first = diagnosis.next.front();
-  return fmt::format(" Next: {} ({:.0f} % to settle it).", first.observation,
-                     100.0 * first.expected_probability_resolved);
+  const auto& next = diagnosis.next;
+  if (next.experiments.empty() || next.experiments.front().outlook.cases == 0) return "";
+  const auto& first = next.experiments.front();
+  return fmt::format(" Next: {} ({}); expected to leave {:.1f} explanations of {:.1f}.", first.observation,
+                     first.why, first.outlook.set_size, next.now.set_size);
 }
 
 }  // namespace

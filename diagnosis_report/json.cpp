@@ -92,16 +92,6 @@ ordered_json shrinkage_of(const Diagnosis& d) {
             {"wrong_effect_id", d.wrong_effect}}}};
 }
 
-ordered_json next_of(const Diagnosis& d) {
-  ordered_json all = ordered_json::array();
-  for (const auto& next : d.next)
-    all.push_back({{"observation", next.observation},
-                   {"expected_probability_resolved", number(next.expected_probability_resolved)},
-                   {"cost", number(next.cost)},
-                   {"why", next.why}});
-  return all;
-}
-
 ordered_json rows_of(const Eigen::MatrixXd& matrix) {
   ordered_json rows = ordered_json::array();
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
@@ -198,6 +188,34 @@ std::map<std::string, int> runs_by_status(const Diagnosis& d) {
 
 }  // namespace
 
+ordered_json to_json(const diagnosis::Outlook& outlook) {
+  ordered_json effects = ordered_json::object();
+  for (const auto& [id, effect] : outlook.effects)
+    effects[id] = {{"replayed_runs", effect.cases},
+                   {"told_from_none", effect.told_from_none},
+                   {"named_first", effect.first}};
+  return {{"replayed_runs", outlook.cases},
+          {"expected_set_size", number(outlook.set_size)},
+          {"expected_entropy_bits", number(outlook.entropy)},
+          {"probability_settled", number(outlook.settled)},
+          {"effects", effects}};
+}
+
+ordered_json to_json(const diagnosis::NextSteps& steps) {
+  ordered_json all = ordered_json::array();
+  for (const auto& next : steps.experiments) {
+    const bool known = next.outlook.cases > 0;
+    all.push_back({{"observation", next.observation},
+                   {"expected_probability_resolved", known ? number(next.outlook.settled) : ordered_json()},
+                   {"why", next.why},
+                   {"cost", number(next.cost)},
+                   {"gain_bits", known ? number(next.gain) : ordered_json()},
+                   {"outlook", known ? to_json(next.outlook) : ordered_json()},
+                   {"runs_missing", next.runs}});
+  }
+  return all;
+}
+
 ordered_json to_json(const Diagnosis& d) {
   const auto failed =
       std::count_if(d.ledger.begin(), d.ledger.end(), [](const auto& row) { return row.status != "done"; });
@@ -218,7 +236,8 @@ ordered_json to_json(const Diagnosis& d) {
   json["nearest_signature"] = d.nearest_signature;
   json["goodness"] = number(d.goodness);
   json["shrinkage"] = shrinkage_of(d);
-  json["next_experiments"] = next_of(d);
+  json["outlook"] = d.next.now.cases > 0 ? to_json(d.next.now) : ordered_json();
+  json["next_experiments"] = to_json(d.next);
   json["groups"] = groups_of(d);
   json["pulls"] = pulls_of(d);
   json["places"] = places_of(d);

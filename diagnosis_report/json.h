@@ -10,4 +10,10 @@ namespace pendular::diagnosis_report {
 /// finite number, is null.
 nlohmann::ordered_json to_json(const diagnosis::Diagnosis& diagnosis);
 
+/// What a diagnosis of the experiment as it is would come to.
+nlohmann::ordered_json to_json(const diagnosis::Outlook& outlook);
+
+/// What could be measured next.
+nlohmann::ordered_json to_json(const diagnosis::NextSteps& steps);
+
 }  // namespace pendular::diagnosis_report

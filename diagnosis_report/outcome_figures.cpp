@@ -68,23 +68,31 @@ std::optional<Drawn> shrinkage_figure(const viz::Display& display, const Diagnos
                table};
 }
 
-std::optional<Drawn> next_figure(const viz::Display& display, const Diagnosis& d) {
-  if (d.next.empty()) return {};
+std::optional<Drawn> next_figure(const viz::Display& display, const diagnosis::NextSteps& steps) {
+  if (steps.now.cases == 0) return {};
   viz::RowPlot plot;
-  RowSeries resolved, cost;
+  RowSeries sizes, settled, cost;
   std::vector<std::string> notes;
-  for (const auto& next : d.next) {
-    plot.labels.push_back(next.observation);
-    resolved.values.push_back(next.expected_probability_resolved);
-    cost.values.push_back(next.cost);
-    notes.push_back(fmt::format("{:.2f}", next.expected_probability_resolved));
-  }
-  plot.panels = {{"expected probability resolved", {resolved}, {}, notes, 0.0, 1.0},
+  const auto add = [&](const std::string& name, const diagnosis::Outlook& outlook, double price) {
+    plot.labels.push_back(name);
+    plot.marked.push_back(price == 0.0);
+    sizes.values.push_back(outlook.set_size);
+    settled.values.push_back(100.0 * outlook.settled);
+    cost.values.push_back(price);
+    notes.push_back(fmt::format("{:.1f}", outlook.set_size));
+  };
+  add("nothing more", steps.now, 0.0);
+  for (const auto& next : steps.experiments)
+    if (next.outlook.cases > 0) add(next.observation, next.outlook, next.cost);
+  if (plot.labels.size() == 1) return {};
+  plot.panels = {{"expected size of the set", {sizes}, {1.0}, notes},
+                 {"settled by it (%)", {settled}, {}, {}, 0.0, 100.0},
                  {"cost (compression tests)", {cost}}};
-  return Drawn{viz::draw_rows(display, plot),
-               "What to measure next: the probability expected that one explanation has nine tenths "
-               "afterwards, and what the measurement costs in units of one compression test.",
-               next_table(d)};
+  return Drawn{
+      viz::draw_rows(display, plot),
+      "What to measure next, best value for its cost first: explanations that are expected to remain, "
+      "and how probable it is that the right one remains alone.",
+      next_table(steps)};
 }
 
 }  // namespace pendular::diagnosis_report

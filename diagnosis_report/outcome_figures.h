@@ -12,7 +12,7 @@ namespace pendular::diagnosis_report {
 /// made.
 std::optional<Drawn> shrinkage_figure(const viz::Display& display, const diagnosis::Diagnosis& diagnosis);
 
-/// Further measurements and how probable it is that they settle the question. Nothing where there are none.
-std::optional<Drawn> next_figure(const viz::Display& display, const diagnosis::Diagnosis& diagnosis);
+/// Further measurements, what they are expected to leave, and their cost. Nothing where none is reckoned.
+std::optional<Drawn> next_figure(const viz::Display& display, const diagnosis::NextSteps& steps);
 
 }  // namespace pendular::diagnosis_report

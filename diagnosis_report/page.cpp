@@ -137,10 +137,21 @@ viz::ReportSection far_section(const Diagnosis& d, const Pictures& pictures) {
 }
 
 viz::ReportSection next_section(const Diagnosis& d, const Pictures& pictures) {
-  auto out =
-      section("What to measure next",
-              d.next.empty() ? "Nothing more is needed, or nothing known would help." : "", pictures.next);
-  if (!d.next.empty()) out.tables = {to_report(next_table(d), "")};
+  const auto& steps = d.next;
+  std::string text;
+  if (steps.experiments.empty())
+    text = d.ambiguity_set.size() == 1 ? "One explanation is left: nothing more is needed."
+           : steps.now.cases == 0 ? "The bank is too small to tell what a further measurement would bring."
+                                  : "No further measurement of the list would help.";
+  const bool lacks_runs = std::any_of(steps.experiments.begin(), steps.experiments.end(),
+                                      [](const auto& next) { return next.runs > 0; });
+  if (lacks_runs) text += "Where runs are missing, --plan makes them.";
+  auto out = section("What to measure next", text, pictures.next);
+  if (!steps.experiments.empty())
+    out.tables = {
+        to_report(next_table(steps),
+                  "Runs of the bank taken for the truth, by the present probabilities, and diagnosed "
+                  "with the further measurement as it is usually made.")};
   return out;
 }
 

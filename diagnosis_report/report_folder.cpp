@@ -71,7 +71,7 @@ Pictures keep_figures(const Desk& desk, const Diagnosis& d, const Files& files) 
   files.keep(pull_figure(desk.display, d), pictures.which);
   files.keep(goodness_figure(desk.display, d), pictures.which);
   files.keep(shrinkage_figure(desk.display, d), pictures.how_far);
-  files.keep(next_figure(desk.display, d), pictures.next);
+  files.keep(next_figure(desk.display, d.next), pictures.next);
   return pictures;
 }
 
@@ -81,9 +81,9 @@ void write_report_folder(const Desk& desk, const Diagnosis& d) {
   make_folder(desk.out);
   const Files files(desk, d);
   const Pictures pictures = keep_figures(desk, d, files);
-  for (const Table& table :
-       {gap_table(d), share_table(d), hypothesis_table(d), noise_table(d), excluded_table(d),
-        promise_table(d), reliability_table(d), next_table(d), ledger_table(d)})
+  for (const Table& table : {gap_table(d), share_table(d), hypothesis_table(d), noise_table(d),
+                             excluded_table(d), promise_table(d), reliability_table(d), next_table(d.next),
+                             next_effects_table(d.next), ledger_table(d)})
     files.keep(table);
   for (const auto& place : d.places)
     write_polydata(desk.out / (file_name("place_" + place.observation) + ".vtp"), place_polydata(place));

@@ -148,10 +148,35 @@ Table reliability_table(const Diagnosis& d) {
   return table;
 }
 
-Table next_table(const Diagnosis& d) {
-  Table table{"next_experiments", {"observation", "expected_probability_resolved", "cost", "why"}, {}};
-  for (const auto& next : d.next)
-    table.rows.push_back({next.observation, next.expected_probability_resolved, next.cost, next.why});
+Table next_table(const diagnosis::NextSteps& steps) {
+  Table table{
+      "next_experiments",
+      {"observation", "gain_bits", "expected_set_size", "probability_settled", "cost", "runs_missing", "why"},
+      {}};
+  const auto add = [&](const std::string& name, double gain, const diagnosis::Outlook& outlook, double cost,
+                       std::size_t runs, const std::string& why) {
+    const bool known = outlook.cases > 0;
+    table.rows.push_back({name, known ? gain : kNone, known ? outlook.set_size : kNone,
+                          known ? outlook.settled : kNone, cost, static_cast<double>(runs), why});
+  };
+  if (steps.now.cases > 0) add("nothing more", 0.0, steps.now, 0.0, 0, "as the experiment is");
+  for (const auto& next : steps.experiments)
+    add(next.observation, next.gain, next.outlook, next.cost, next.runs, next.why);
+  return table;
+}
+
+Table next_effects_table(const diagnosis::NextSteps& steps) {
+  Table table{
+      "next_effects", {"observation", "effect", "replayed_runs", "told_from_none", "named_first"}, {}};
+  const auto add = [&](const std::string& name, const diagnosis::Outlook& outlook) {
+    for (const auto& [id, effect] : outlook.effects) {
+      const double runs = static_cast<double>(effect.cases);
+      table.rows.push_back({name, id, runs, static_cast<double>(effect.told_from_none) / runs,
+                            static_cast<double>(effect.first) / runs});
+    }
+  };
+  add("nothing more", steps.now);
+  for (const auto& next : steps.experiments) add(next.observation, next.outlook);
   return table;
 }
 

@@ -29,8 +29,11 @@ Table promise_table(const diagnosis::Diagnosis& diagnosis);
 /// How often what was said with some probability came true among replayed runs.
 Table reliability_table(const diagnosis::Diagnosis& diagnosis);
 
-/// next_experiments.csv.
-Table next_table(const diagnosis::Diagnosis& diagnosis);
+/// next_experiments.csv: what each further measurement is expected to bring, after what is known without it.
+Table next_table(const diagnosis::NextSteps& steps);
+
+/// next_effects.csv: likewise, effect by effect.
+Table next_effects_table(const diagnosis::NextSteps& steps);
 
 /// ledger.csv: every simulated test, those first that were not made.
 Table ledger_table(const diagnosis::Diagnosis& diagnosis);

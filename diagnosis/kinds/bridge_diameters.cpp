@@ -8,26 +8,14 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr double kUm = 1e6;
+constexpr std::size_t kUsualRows = 60;  // of a usual sample
+constexpr double kUsualError = 1.5;     // of its rows, um
 constexpr double kRounding = 1e-12;  // what remains of the spread of equal numbers
 
 void check(const Sample& believed, Observation& observation, std::vector<std::string>&) {
   const double diameter = kUm * believed.beads.diameter;
   check_length(observation, "d_um", 0.01 * diameter, 0.99 * diameter);
   check_sigma(observation, "sigma_um", diameter);
-}
-
-/// Numbers with this mean and standard deviation, as many as asked for: what a sample of them comes to.
-std::vector<double> spread_about(double mean, double sd, std::size_t count) {
-  const double n = static_cast<double>(count);
-  std::vector<double> values;
-  double square = 0.0;
-  for (std::size_t k = 0; k < count; ++k) {
-    values.push_back((static_cast<double>(k) + 0.5) / n - 0.5);
-    square += values.back() * values.back();
-  }
-  const double scale = square > 0.0 ? sd / std::sqrt(square / (n - 1.0)) : 0.0;
-  for (double& value : values) value = mean + scale * value;
-  return values;
 }
 
 Columns simulate(const Observation& observation, const Simulated& simulated) {
@@ -59,6 +47,20 @@ Columns perturbed(const Observation& observation, unsigned long seed) {
   return columns;
 }
 
+Columns planned(const Observation&, const Sample& believed, double) {
+  return {{"d_um", std::vector<double>(kUsualRows, kUm * believed.bridges.diameter)}};
+}
+
+/// The spread of what is read is that of the bridges and of the errors.
+Columns shown(const Observation&, const Columns& simulated) {
+  const auto& d = simulated.at("d_um");
+  const double middle = mean_of(d);
+  double square = 0.0;
+  for (double one : d) square += (one - middle) * (one - middle) / static_cast<double>(d.size() - 1);
+  return {{"d_um", spread_about(middle, std::hypot(std::sqrt(square), kUsualError), d.size())},
+          {"sigma_um", std::vector<double>(d.size(), kUsualError)}};
+}
+
 Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
   return errors_by_name(features, {{"diameter_mean", 0.005}, {"diameter_spread", 0.005}});
 }
@@ -78,6 +80,8 @@ const Kind& kinds::bridge_diameters() {
                          .simulate = simulate,
                          .landmarks = landmarks,
                          .perturbed = perturbed,
+                         .planned = planned,
+                         .shown = shown,
                          .model_error = model_error};
   return kind;
 }

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "base/error.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
@@ -7,6 +9,8 @@ namespace {
 
 constexpr double kUm = 1e6;
 constexpr double kError = 0.3;  // of the simulation, um
+constexpr std::size_t kUsualRows = 60;  // of a usual sample
+constexpr double kUsualError = 0.5;     // of its rows, um
 constexpr double kNoGap = 1e-4;  // over the beads' diameter: none is resolved
 
 void check(const Sample& believed, Observation& observation, std::vector<std::string>&) {
@@ -36,6 +40,17 @@ Columns perturbed(const Observation& observation, unsigned long seed) {
   return columns;
 }
 
+Columns planned(const Observation&, const Sample& believed, double) {
+  return {{"gap_um", std::vector<double>(kUsualRows, kUm * believed.bridges.gap)}};
+}
+
+/// Gaps spread as much as their mean is above the narrowest, which is that of an exponential, and by errors.
+Columns shown(const Observation& planned, const Columns& simulated) {
+  const double middle = mean_of(simulated.at("gap_um")), excess = middle - mean_of(planned.column("gap_um"));
+  return {{"gap_um", spread_about(middle, std::hypot(excess, kUsualError), kUsualRows)},
+          {"sigma_um", std::vector<double>(kUsualRows, kUsualError)}};
+}
+
 Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
   return errors_by_name(features, {{"gap_mean_um", kError}});
 }
@@ -54,6 +69,8 @@ const Kind& kinds::bridge_gaps() {
                          .simulate = simulate,
                          .landmarks = landmarks,
                          .perturbed = perturbed,
+                         .planned = planned,
+                         .shown = shown,
                          .model_error = model_error};
   return kind;
 }

@@ -16,6 +16,9 @@ constexpr double kUm = 1e6;
 constexpr double kSpreadOut = 1.2;                   // of necks, so that an exponent can be read
 constexpr double kLeastRatio = 0.02, kMostRatio = 50.0;  // of measured stiffness over that by finite elements
 constexpr double kNormalByGap = 0.82, kTangentialByGap = 0.44;  // −dln k/dln δ0 (docs/bridge.md)
+// As they are usually measured: so many, of necks between these shares of the mean one, with this relative error.
+constexpr int kUsualBridges = 20;
+constexpr double kThinnest = 0.6, kThickest = 1.4, kUsualError = 0.08;
 constexpr int kQuantiles = 9;  // of the gaps in a specimen
 constexpr double kLongest = 0.2;  // gap over bead diameter, as effects/bridge_gap_spread.cpp has it
 
@@ -168,6 +171,29 @@ Columns perturbed(const Observation& observation, unsigned long seed) {
   return columns;
 }
 
+/// Necks over a range about the mean one, on beads of the mean size.
+Columns planned(const Observation&, const Sample& believed, double) {
+  Columns columns;
+  for (int k = 0; k < kUsualBridges; ++k) {
+    const double share = kThinnest + (kThickest - kThinnest) * k / (kUsualBridges - 1);
+    columns["d_um"].push_back(kUm * share * believed.bridges.diameter);
+    columns["D_um"].push_back(kUm * believed.beads.diameter);
+    for (const char* name : {"kn_n_per_m", "kn_sigma_n_per_m", "kt_n_per_m", "kt_sigma_n_per_m"})
+      columns[name].push_back(1.0);
+  }
+  return columns;
+}
+
+Columns shown(const Observation& planned, const Columns& simulated) {
+  Columns columns = planned.columns;
+  for (const std::string stiffness : {"kn", "kt"}) {
+    columns[stiffness + "_n_per_m"] = simulated.at(stiffness + "_n_per_m");
+    auto& sigma = columns[stiffness + "_sigma_n_per_m"] = simulated.at(stiffness + "_n_per_m");
+    for (double& one : sigma) one *= kUsualError;
+  }
+  return columns;
+}
+
 Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
   return errors_by_name(features,
                         {{"kn_level", 0.02}, {"kt_level", 0.02}, {"kn_exponent", 0.05}, {"kt_exponent", 0.05}});
@@ -190,6 +216,8 @@ const Kind& kinds::bridge_stiffness() {
       .simulate = simulate,
       .landmarks = landmarks,
       .perturbed = perturbed,
+      .planned = planned,
+      .shown = shown,
       .model_error = model_error};
   return kind;
 }

@@ -15,6 +15,7 @@ namespace {
 const std::vector<double> kStrains = {0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09,
                                       0.10, 0.12, 0.14, 0.16, 0.20, 0.25, 0.30};
 constexpr double kQuarter = 0.25;            // makes the root of a Poisson count of constant variance
+constexpr int kUsualRows = 9;                // of a count as it is usually kept
 constexpr double kError = 0.5, kReach = 3.0; // of the simulation, of a root
 
 void check(const Sample&, Observation& observation, std::vector<std::string>&) {
@@ -92,6 +93,22 @@ Columns perturbed(const Observation& observation, unsigned long seed) {
   return columns;
 }
 
+Columns planned(const Observation&, const Sample&, double strain) {
+  Columns columns;
+  for (int row = 1; row <= kUsualRows; ++row) {
+    columns["strain"].push_back(strain * row / kUsualRows);
+    columns["count"].push_back(row);
+  }
+  return columns;
+}
+
+Columns shown(const Observation& planned, const Columns& simulated) {
+  Columns columns = planned.columns;
+  for (std::size_t k = 0; k < columns["strain"].size(); ++k)
+    columns["count"][k] = total_at(simulated.at("strain"), simulated.at("count"), columns["strain"][k]);
+  return columns;
+}
+
 Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
   if (features.empty() || !features.front().name.starts_with("root"))
     return errors_by_name(features, {{"breaks_at_half", 0.4}, {"breaks_at_end", 0.2}});
@@ -114,6 +131,8 @@ const Kind& kinds::broken_bonds() {
                          .landmarks = landmarks,
                          .readings = readings,
                          .perturbed = perturbed,
+                         .planned = planned,
+                         .shown = shown,
                          .model_error = model_error};
   return kind;
 }

@@ -22,6 +22,9 @@ constexpr double kLeastStress = 3e-3;     // over the largest: below it a logari
 const std::vector<double> kShares = {0.8, 0.6, 0.4, 0.3};  // of the stress at a turn, in its loop
 constexpr double kHalfShare = 0.03;        // of it, within which rows are read together
 constexpr double kSameTurn = 1.02;         // over the last strain, up to which loops are looked for
+// As it is usually measured: strain from row to row, error of a load cell over the largest force; and a modulus
+// over the polymer's that gives the order of the stresses.
+constexpr double kLogged = 5e-4, kForceError = 3e-3, kRoughModulus = 10.0;
 constexpr double kLasting = 0.7;          // correlation of a load cell's noise from row to row
 // Errors of the simulation. By what programs with the same law differ (docs/engines.md): of stresses up to
 // failure, correlated along the curve, and beyond it (there 7 to 30 %). Judged: of the strain at which platens meet
@@ -153,6 +156,27 @@ double strain_of_failure(const std::vector<Feature>& features) {
   return std::numeric_limits<double>::infinity();
 }
 
+Columns planned(const Observation&, const Sample& believed, double strain) {
+  Columns columns;
+  for (int row = 1; row * kLogged < strain * (1.0 + 1e-9); ++row) {
+    columns["strain"].push_back(row * kLogged);
+    columns["stress_pa"].push_back(kRoughModulus * believed.bridges.youngs_modulus * row * kLogged);
+  }
+  return columns;
+}
+
+Columns shown(const Observation& planned, const Columns& simulated) {
+  const auto &strain = simulated.at("strain"), &stress = simulated.at("stress_pa");
+  const double last = last_strain(planned);
+  Columns columns;
+  for (std::size_t k = 0; k < strain.size() && strain[k] <= last; ++k) {
+    columns["strain"].push_back(strain[k]);
+    columns["stress_pa"].push_back(stress[k]);
+  }
+  columns["stress_sigma_pa"].assign(columns["strain"].size(), kForceError * largest_of(columns["stress_pa"]));
+  return columns;
+}
+
 Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
   const auto count = static_cast<Eigen::Index>(features.size());
   if (count == 0 || !features.front().name.starts_with("stress_at"))
@@ -191,6 +215,8 @@ const Kind& kinds::compression() {
                          .landmarks = landmarks,
                          .readings = readings,
                          .perturbed = perturbed,
+                         .planned = planned,
+                         .shown = shown,
                          .model_error = model_error};
   return kind;
 }

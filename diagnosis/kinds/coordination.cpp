@@ -8,6 +8,7 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr double kMostBridges = 14.0;  // per bead
+constexpr double kRoughBridges = 6.0, kUsualError = 0.05;  // as it is usually measured
 constexpr double kError = 0.01;        // of the simulation
 
 void check(const Sample&, Observation& observation, std::vector<std::string>&) {
@@ -37,6 +38,14 @@ Columns perturbed(const Observation& observation, unsigned long seed) {
   return columns;
 }
 
+Columns planned(const Observation&, const Sample&, double) {
+  return {{"z", {kRoughBridges}}, {"z_sigma", {kUsualError}}};
+}
+
+Columns shown(const Observation& planned, const Columns& simulated) {
+  return {{"z", simulated.at("z")}, {"z_sigma", planned.column("z_sigma")}};
+}
+
 Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
   return errors_by_name(features, {{"coordination", kError}});
 }
@@ -53,6 +62,8 @@ const Kind& kinds::coordination() {
                          .simulate = simulate,
                          .landmarks = landmarks,
                          .perturbed = perturbed,
+                         .planned = planned,
+                         .shown = shown,
                          .model_error = model_error};
   return kind;
 }

@@ -29,6 +29,7 @@ constexpr double kAlongAxis = 0.75;  // least cosine to z of the direction in wh
 constexpr double kNeighbours = 0.1;  // gap over bead diameter
 constexpr double kAlike = 0.7;       // of neighbours' difference over that of any two beads, mean squares
 constexpr double kSeen = 4.0;        // of motion over its error, from which neighbours can be compared
+constexpr double kUsualError = 0.1;  // of a bead's motion as it is usually measured, um
 constexpr double kUnstated = 0.005;  // of that error over bead diameters, where none is stated
 
 using Names = std::array<const char*, 3>;
@@ -274,6 +275,28 @@ Columns perturbed(const Observation& observation, unsigned long seed) {
   return columns;
 }
 
+/// Every bead of the specimen, followed. The motion of a bead is rough: along the axis, by its height.
+Columns planned(const Observation& observation, const Sample&, double strain) {
+  Columns columns;
+  for (const auto& bead : read_beads(observation.beads)) {
+    columns["strain"].push_back(strain);
+    columns["bead_id"].push_back(static_cast<double>(bead.id));
+    for (int axis = 0; axis < 3; ++axis) {
+      columns[kPlaces[static_cast<std::size_t>(axis)]].push_back(kUm * bead.centre[axis]);
+      columns[kMotions[static_cast<std::size_t>(axis)]].push_back(
+          axis == 2 ? -kUm * strain * bead.centre[axis] : 0.0);
+    }
+    columns["sigma_um"].push_back(kUsualError);
+  }
+  return columns;
+}
+
+Columns shown(const Observation& planned, const Columns& simulated) {
+  Columns columns = simulated;
+  columns["sigma_um"].assign(simulated.at("strain").size(), planned.column("sigma_um").front());
+  return columns;
+}
+
 Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
   return errors_by_name(features,
                         {{"deviatoric_share", 0.02}, {"tilt_share", 0.02}, {"wandering", 0.05}});
@@ -296,6 +319,8 @@ const Kind& kinds::displacements() {
                          .landmarks = landmarks,
                          .field = field,
                          .perturbed = perturbed,
+                         .planned = planned,
+                         .shown = shown,
                          .model_error = model_error};
   return kind;
 }

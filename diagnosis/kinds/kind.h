@@ -55,6 +55,11 @@ struct Kind {
   Eigen::VectorXd (*field)(const Observation& observation, const Columns& columns) = nullptr;
   /// Columns as another measurement of the same might have them.
   Columns (*perturbed)(const Observation& observation, unsigned long seed) = nullptr;
+  /// Columns of such a measurement as it is usually made, up to a platen strain: where it reads and with which
+  /// errors; what it will show is only rough. Null: it is not planned.
+  Columns (*planned)(const Observation& observation, const Sample& believed, double strain) = nullptr;
+  /// The planned columns once a simulation tells what they would show.
+  Columns (*shown)(const Observation& planned, const Columns& simulated) = nullptr;
   /// Covariance of what the simulation itself may be off in these features, as they are compared.
   Eigen::MatrixXd (*model_error)(const std::vector<Feature>& features) = nullptr;
 };

@@ -18,6 +18,8 @@ constexpr double kRange = 0.03;  // strain over which the first ratio is read
 const std::vector<double> kStrains = {0.005, 0.010, 0.015, 0.020, 0.027, 0.035, 0.042, 0.050, 0.060,
                                       0.070, 0.080, 0.09,  0.10,  0.12,  0.15,  0.20,  0.25,  0.30};
 constexpr double kHalf = 2e-3, kLasting = 0.7;
+// As it is usually measured: strain from picture to picture, error; and a ratio that gives the order.
+constexpr double kPictures = 2e-3, kUsualError = 2e-4, kRoughRatio = 0.3;
 constexpr double kError = 4e-4, kReach = 3.0;  // of the simulation
 
 void check(const Sample&, Observation& observation, std::vector<std::string>& warnings) {
@@ -81,6 +83,23 @@ Columns perturbed(const Observation& observation, unsigned long seed) {
   return columns;
 }
 
+Columns planned(const Observation&, const Sample&, double strain) {
+  Columns columns;
+  for (int row = 1; row * kPictures < strain * (1.0 + 1e-9); ++row) {
+    columns["strain"].push_back(row * kPictures);
+    columns["lateral_strain"].push_back(kRoughRatio * row * kPictures);
+    columns["sigma"].push_back(kUsualError);
+  }
+  return columns;
+}
+
+Columns shown(const Observation& planned, const Columns& simulated) {
+  Columns columns = planned.columns;
+  columns["lateral_strain"] =
+      read_at(simulated.at("strain"), simulated.at("lateral_strain"), columns["strain"], kHalf);
+  return columns;
+}
+
 Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
   if (features.empty() || !features.front().name.starts_with("expansion"))
     return errors_by_name(features, {{"lateral_ratio", 0.02}, {"late_lateral_ratio", 0.06}});
@@ -101,6 +120,8 @@ const Kind& kinds::lateral_strain() {
                          .landmarks = landmarks,
                          .readings = readings,
                          .perturbed = perturbed,
+                         .planned = planned,
+                         .shown = shown,
                          .model_error = model_error};
   return kind;
 }

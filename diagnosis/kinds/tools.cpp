@@ -49,6 +49,19 @@ double last_strain(const Observation& observation) {
   return *std::max_element(strain.begin(), strain.end());
 }
 
+std::vector<double> spread_about(double mean, double sd, std::size_t count) {
+  const double n = static_cast<double>(count);
+  std::vector<double> values;
+  double square = 0.0;
+  for (std::size_t k = 0; k < count; ++k) {
+    values.push_back((static_cast<double>(k) + 0.5) / n - 0.5);
+    square += values.back() * values.back();
+  }
+  const double scale = square > 0.0 ? sd / std::sqrt(square / (n - 1.0)) : 0.0;
+  for (double& value : values) value = mean + scale * value;
+  return values;
+}
+
 std::vector<double> read_at(const std::vector<double>& x, const std::vector<double>& y,
                             const std::vector<double>& strains, double half) {
   std::vector<double> first_x, first_y;

@@ -32,6 +32,9 @@ std::vector<double> logarithms_of(const std::vector<double>& values);
 double largest_of(const std::vector<double>& values);  ///< of the absolute values
 double last_strain(const Observation& observation);
 
+/// Numbers with this mean and standard deviation, as many as asked for: what a sample of them comes to.
+std::vector<double> spread_about(double mean, double sd, std::size_t count);
+
 /// Values of y at strains, for the first time that x reaches them: by the line through the rows within `half`
 /// of it, at least four; NaN beyond the last one.
 std::vector<double> read_at(const std::vector<double>& x, const std::vector<double>& y,

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/next_experiments.h"
 #include "diagnosis/shrinkage.h"
 #include "diagnosis/verdict.h"
 #include "signatures.h"
@@ -13,8 +12,8 @@
 namespace pendular::diagnosis {
 namespace {
 
-/// Three features of one curve, read alike at both levels; compliance and missing bridges lower the first alike
-/// and differ in the second.
+/// Three features of one curve, read alike at both levels; compliance and missing bridges lower the first
+/// alike and differ in the second.
 Problem planted(const Eigen::Vector3d& gap) {
   Comparison one;
   for (const char* name : {"linear_modulus", "coordination", "peak_stress"})
@@ -95,15 +94,6 @@ TEST(Judgement, EffectsThatLookAlikeAreASet) {
   judge(problem, {}, {}, one_curve(), diagnosis);
   for (const char* id : {"missing_bridges", "machine_compliance"})
     EXPECT_TRUE(std::count(diagnosis.ambiguity_set.begin(), diagnosis.ambiguity_set.end(), id)) << id;
-  const auto next = next_experiments(one_curve(), diagnosis.explanations);
-  ASSERT_FALSE(next.empty());
-  EXPECT_EQ(next.front().observation,
-            "the platens pressed on a steel block");  // it settles the one for little
-}
-
-TEST(Judgement, WhatOneExplanationHasNeedsNoFurtherExperiment) {
-  EXPECT_TRUE(
-      next_experiments(one_curve(), {{"missing_bridges", 0.95, {}, {}}, {"unknown", 0.05, {}, {}}}).empty());
 }
 
 TEST(Shrinkage, IsOneWhereTheGapIsGoneAndZeroWhereItStays) {

@@ -53,8 +53,10 @@ TEST(DiagnosisJson, HasEveryKeyOfTheContract) {
     expect_keys(report["shrinkage"][data], {"before", "after", "fraction", "interval_90"});
   expect_keys(report["shrinkage"]["withheld"], {"observations"});
   expect_keys(report["shrinkage"]["controls"], {"modulus_retuned", "wrong_effect"});
-  ASSERT_EQ(report["next_experiments"].size(), 2u);
-  expect_keys(report["next_experiments"][0], {"observation", "expected_probability_resolved", "why", "cost"});
+  ASSERT_EQ(report["next_experiments"].size(), 3u);
+  expect_keys(report["next_experiments"][0], {"observation", "expected_probability_resolved", "why", "cost",
+                                              "gain_bits", "outlook", "runs_missing"});
+  EXPECT_TRUE(report["next_experiments"][2]["expected_probability_resolved"].is_null());
   EXPECT_EQ(report["provenance"]["command"], "pendular diagnose experiment.toml");
 }
 

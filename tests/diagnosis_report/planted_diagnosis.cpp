@@ -195,12 +195,20 @@ void add_rest(Diagnosis& d) {
   d.fitted = {4.2, 0.6, 0.86, {0.8, 0.91}, {observations[0]}};
   d.withheld = {3.6, 0.93, 0.74, {0.61, 0.83}, {observations.begin() + 1, observations.end()}};
   d.retuned = 0.22, d.wrong = -0.08, d.wrong_effect = "platen_tilt";
-  d.next = {
-      {"twenty single bridges, pulled and sheared", 0.91, 0.5,
-       "their stiffness over diameter tells the spread of diameters from missing bridges"},
+  d.next.now = {200, 3.2, 1.4, 0.2, {}};
+  d.next.experiments = {
+      {"twenty single bridges, pulled and sheared",
+       "their stiffness over diameter tells the spread of diameters from missing bridges",
+       0.5,
+       {200, 1.4, 0.4, 0.8, {}},
+       1.0},
       {"a second specimen of twice the height, with the same polymer and the same bead batch, compressed "
        "at a tenth of the speed with three unloadings",
-       0.35, 2.0, "compliance falls with height"}};
+       "compliance falls with height",
+       2.0,
+       {200, 2.5, 1.1, 0.3, {}},
+       0.3},
+      {"a second scan at 2 % of platen strain", "the displacement of every bead", 1.5, {}, 0.0, 120}};
   for (int k = 0; k < 30; ++k)
     d.ledger.push_back({"0123456789abcdef" + std::to_string(k), k < 6 ? "baseline" : "missing_bridges 0.1",
                         k == 7 ? "failed" : "done", k == 7 ? "diverged at 2.1 % strain" : "", 0});
@@ -297,7 +305,8 @@ Diagnosis crowded_diagnosis() {
     for (const double v : columns["kn_n_per_m"]) columns["kt_n_per_m"].push_back(0.4 * v);
     return columns;
   });
-  add("necks", kinds::bridge_diameters(), [](double f, auto seed) { return sample("d_um", 74 * f, 12, seed); });
+  add("necks", kinds::bridge_diameters(),
+      [](double f, auto seed) { return sample("d_um", 74 * f, 12, seed); });
   add("gaps", kinds::bridge_gaps(), [](double f, auto seed) { return sample("gap_um", 2 * f, 0.3, seed); });
   add("lateral", kinds::lateral_strain(), [](double f, auto) {
     return line("strain", "lateral_strain", "sigma", {0.005, 0.01, 0.015, 0.02, 0.025, 0.03}, 0.3 * f);
@@ -344,7 +353,7 @@ Diagnosis named_throughout(const std::string& text) {
   for (auto& group : d.groups) group.effect = group.group = text;
   for (auto& pull : d.pulls) pull.key = text;
   for (auto* s : {&d.fitted, &d.withheld}) s->observations = {text};
-  for (auto& next : d.next) next.observation = next.why = text;
+  for (auto& next : d.next.experiments) next.observation = next.why = text;
   for (auto& row : d.ledger) row.hash = row.purpose = row.status = row.message = text;
   d.provenance = {text, text, 1, {{text, text}}};
   d.gap.rows[0].z = std::numeric_limits<double>::quiet_NaN();

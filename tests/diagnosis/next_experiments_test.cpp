@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/bank_tests.h"
+#include "diagnosis/diagnose.h"
+#include "diagnosis/feature_values.h"
+#include "diagnosis/further_measurements.h"
+#include "diagnosis/kinds/kind.h"
+#include "diagnosis/planning.h"
+#include "effects/list.h"
+#include "scratch.h"
+#include "toy_runs.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+using pendular::test::ScratchFolder;
+
+constexpr const char* kSample = R"([beads]
+diameter_um = 200
+density_kg_m3 = 2500
+[bridges]
+youngs_modulus_pa = 1.5e6
+poisson_ratio = 0.49
+diameter_um = 74
+gap_um = 2
+[contact]
+friction = 0.5
+[specimen]
+diameter_um = 1200
+height_um = 1200
+volume_fraction = 0.55
+)";
+
+const NextExperiment* found(const NextSteps& steps, const std::string& start) {
+  for (const auto& next : steps.experiments)
+    if (next.observation.starts_with(start)) return &next;
+  return nullptr;
+}
+
+class Planning : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_text(folder / "sample.toml", kSample);
+    beliefs = *read_beliefs(folder / "sample.toml");
+    beliefs.uncertainty["bridges.youngs_modulus_pa"] = 1.5e5;
+  }
+
+  /// A plan of a specimen whose beads the toy does not need.
+  Experiment planned() {
+    Experiment experiment = planned_experiment(beliefs, folder / "beads");
+    experiment.observations.front().beads.clear();
+    experiment.contacts.reset();
+    return experiment;
+  }
+
+  /// A bank of few effects, of which two act on the toy.
+  BankPlan bank_of(const Experiment& experiment) {
+    BankOptions options;
+    for (const auto& effect : effects::all_effects())
+      if (!std::set<std::string>{"missing_bridges", "bead_friction", "residual_stress"}.contains(effect.id))
+        options.leave_out.insert(effect.id);
+    return plan_bank(experiment, options, folder / "beads");
+  }
+
+  ScratchFolder folder;
+  Experiment beliefs;
+  test::ToyRuns simulation{folder / "runs"};
+};
+
+}  // namespace
+
+TEST_F(Planning, EveryMeasurementReadsSomething) {
+  const Experiment planned = planned_experiment(beliefs, folder / "beads");
+  std::size_t added = 0;
+  for (const auto& measurement : further_measurements()) {
+    EXPECT_GT(measurement.cost, 0.0) << measurement.name;
+    EXPECT_EQ(measurement.added == nullptr, !measurement.settles.empty()) << measurement.name;
+    if (!measurement.added) continue;
+    const auto more = measurement.added(planned);
+    ASSERT_TRUE(more) << measurement.name;
+    ++added;
+    ASSERT_EQ(more->observations.size(), planned.observations.size() + 1);
+    const Observation& observation = more->observations.back();
+    const bool reads = observation.kind->field != nullptr ||
+                       !features_of(Level::readings, observation, observation.columns).empty();
+    EXPECT_TRUE(reads) << measurement.name;
+    EXPECT_FALSE(measurement.added(*more) && !measurement.name.starts_with("a second scan") &&
+                 observation.kind != compression_kind())
+        << measurement.name << " is offered where it is there";
+  }
+  EXPECT_GE(added, 12u);
+}
+
+TEST_F(Planning, BridgesCountedTellMissingOnesFromASofterPolymer) {
+  const Experiment experiment = planned();
+  const BankPlan plan = bank_of(experiment);
+  std::vector<LedgerRow> ledger;
+  const auto steps = plan_experiments(experiment, plan, folder / "beads", std::ref(simulation),
+                                      {"missing_bridges"}, {}, ledger);
+  ASSERT_GT(steps.now.cases, 60u);
+  const NextExperiment* counted = found(steps, "bridges per bead");
+  ASSERT_NE(counted, nullptr);
+  // What is left is of the effect that does nothing to the toy.
+  EXPECT_LT(counted->outlook.entropy, steps.now.entropy - 0.15);
+  EXPECT_LT(counted->outlook.set_size, steps.now.set_size);
+  const auto& now = steps.now.effects.at("missing_bridges");
+  const auto& then = counted->outlook.effects.at("missing_bridges");
+  EXPECT_GT(then.first, now.first);
+  // Nothing acts on what the toy breaks.
+  EXPECT_EQ(found(steps, "acoustic"), nullptr);
+  for (std::size_t k = 1; k < steps.experiments.size(); ++k)
+    EXPECT_GE(steps.experiments[k - 1].gain / steps.experiments[k - 1].cost,
+              steps.experiments[k].gain / steps.experiments[k].cost);
+}
+
+TEST_F(Planning, WithoutRunsOnlyWhatTheBankShowsIsReckoned) {
+  const Experiment experiment = planned();
+  const BankPlan plan = bank_of(experiment);
+  std::vector<LedgerRow> ledger;
+  const MakeRuns make_runs = std::ref(simulation);
+  BankTests bank(make_runs, ledger);
+  bank.make("bank", plan);
+  const std::size_t before = ledger.size();
+  const auto steps = next_steps({experiment, plan, bank.tests(), folder / "beads", nullptr, {}, 0.95, 0},
+                                question_before(plan, {"missing_bridges"}), ledger);
+  EXPECT_EQ(ledger.size(), before);
+  ASSERT_NE(found(steps, "bridges per bead"), nullptr);
+  EXPECT_EQ(found(steps, "bridges per bead")->runs, 0u);
+  ASSERT_NE(found(steps, "a specimen of half the height"), nullptr);
+  EXPECT_GT(found(steps, "a specimen of half the height")->runs, 30u);
+  EXPECT_EQ(steps.experiments.back().outlook.cases, 0u);
+}
+
+TEST(Outlook, WhoKnowsWhatIsThereIsLeftWithTheRest) {
+  // a and b look alike; c is told apart.
+  std::vector<Replayed> replayed;
+  for (int k = 0; k < 120; ++k) {
+    Replayed one;
+    one.member = 1 + k % 6;
+    const std::string truth = k % 3 == 0 ? "a" : k % 3 == 1 ? "b" : "c";
+    one.truth[truth] = 1.0;
+    for (const char* id : {"a", "b", "c", "none", "unknown"}) {
+      const bool alike = (truth == "c") == (std::string(id) == "c");
+      const bool effect = std::string(id).size() == 1;
+      const double probability = effect && alike ? (truth == "c" ? 0.98 : 0.49) : 0.01;
+      Hypothesis h{id, std::log(probability), probability, {}, 0.0};
+      if (effect) h.magnitudes = {{1.0, {0.5, 1.5}}};
+      one.said.push_back(h);
+    }
+    std::stable_sort(one.said.begin(), one.said.end(),
+                     [](const auto& a, const auto& b) { return a.probability > b.probability; });
+    replayed.push_back(one);
+  }
+  const auto alike = [](const Replayed&) { return 1.0; };
+  const Outlook now = outlook_of(replayed, 0.9, alike);
+  const Outlook then = outlook_of(knowing(replayed, {"a"}), 0.9, alike);
+  EXPECT_NEAR(now.settled, 1.0 / 3.0, 0.05);
+  EXPECT_NEAR(now.set_size, 5.0 / 3.0, 0.4);
+  EXPECT_NEAR(then.settled, 1.0, 1e-9);
+  EXPECT_NEAR(then.set_size, 1.0, 1e-9);
+  EXPECT_LT(then.entropy, now.entropy - 0.5);
+  // Only what is in question counts.
+  const Outlook of_c =
+      outlook_of(replayed, 0.9, [](const Replayed& one) { return one.truth.contains("c") ? 1.0 : 0.0; });
+  EXPECT_NEAR(of_c.set_size, 1.0, 1e-9);
+}
+
+}  // namespace pendular::diagnosis
