@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <set>
 
 #include "diagnosis/log_sum.h"
@@ -12,10 +13,13 @@ namespace {
 
 constexpr double kTemperatures[] = {1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0};
 constexpr double kLeastProbability = 1e-9;  // that a wrong answer is charged with
-constexpr double kFalseAlarms = 0.05, kOfTheta = 0.9;
+constexpr double kFalseAlarms = 0.05, kOfTheta = 0.9, kOfLimits = 0.95;
+constexpr double kSeen = 0.5;    // of an effect's runs that are told from none
 constexpr double kOfAll = 10.0;  // runs that what all effects need is worth beside an effect's own
 constexpr double kUnknownAlone = 0.95;
-constexpr std::size_t kLeastCases = 60;  // from which a replay is believed
+constexpr double kLeastInCluster = 40.0;  // runs
+constexpr double kLessInCluster = 0.05;   // confidence that one cluster may have less than all together
+constexpr std::size_t kLeastCases = 60;   // from which a replay is believed
 constexpr double kBins[] = {0.0, 0.4, 0.6, 0.8, 0.9, 1.0};
 constexpr const char* kNone = "none";
 constexpr const char* kUnknown = "unknown";
@@ -80,23 +84,89 @@ double temperature_of(const Cases& cases) {
   return best;
 }
 
-Correction learn(const Cases& cases, double confidence) {
-  Correction found;
-  found.temperature = temperature_of(cases);
-  std::vector<double> needed, alarms, all;
+/// Whether a set holds an answer.
+bool holds(const AmbiguitySet& set, const std::string& id) {
+  return std::find(set.ids.begin(), set.ids.end(), id) != set.ids.end();
+}
+
+/// Whether a set is right: it holds the truth, or none where the truth is unseen.
+bool right(const AmbiguitySet& set, const std::string& truth, const Correction& correction) {
+  return holds(set, truth) || (correction.unseen.contains(truth) && holds(set, kNone));
+}
+
+/// Truths in the order of the level that they need at the mean, split in two where the parts differ most; one
+/// part where either would have too few runs.
+std::vector<std::vector<std::string>> clusters_of(const std::map<std::string, std::vector<double>>& needed) {
+  std::vector<std::pair<double, std::string>> order;
+  double all = 0.0, runs = 0.0;
+  for (const auto& [id, values] : needed) {
+    const double sum = std::accumulate(values.begin(), values.end(), 0.0),
+                 n = static_cast<double>(values.size());
+    order.emplace_back(sum / n, id);
+    all += sum, runs += n;
+  }
+  std::sort(order.begin(), order.end());
+  double sum = 0.0, n = 0.0, most = 0.0;
+  std::size_t split = order.size();
+  for (std::size_t k = 0; k + 1 < order.size(); ++k) {
+    const double here = static_cast<double>(needed.at(order[k].second).size());
+    sum += here * order[k].first, n += here;
+    const double apart = n * (runs - n) * std::pow(sum / n - (all - sum) / (runs - n), 2);
+    if (std::min(n, runs - n) >= kLeastInCluster && apart > most) most = apart, split = k + 1;
+  }
+  std::vector<std::vector<std::string>> clusters(split < order.size() ? 2 : 1);
+  for (std::size_t k = 0; k < order.size(); ++k) clusters[k < split ? 0 : 1].push_back(order[k].second);
+  return clusters;
+}
+
+/// The least levels at which sets hold their truth: in each cluster of truths nearly as often as asked for,
+/// and in all together as often.
+void learn_levels(const std::vector<std::vector<Hypothesis>>& said, const Cases& cases, double confidence,
+                  Correction& found) {
+  std::map<std::string, std::vector<double>> needed;
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const std::string truth = truth_of(*cases[k]);
+    double level = before(said[k], truth);
+    if (found.unseen.contains(truth)) level = std::min(level, before(said[k], kNone));
+    needed[truth].push_back(level);
+  }
+  std::vector<double> beyond;  // levels that are needed where a cluster's own does not do
+  found.levels.clear();
+  for (const auto& cluster : clusters_of(needed)) {
+    std::vector<double> values;
+    for (const auto& id : cluster) values.insert(values.end(), needed[id].begin(), needed[id].end());
+    const double own = conformal(values, confidence - kLessInCluster);
+    for (const auto& id : cluster) found.levels[id] = own;
+    for (const double value : values) beyond.push_back(value <= own ? 0.0 : value);
+  }
+  found.level = conformal(std::move(beyond), confidence);
+  for (auto& [id, level] : found.levels) level = std::max(level, found.level);
+}
+
+std::set<std::string> unseen_effects(const std::vector<std::vector<Hypothesis>>& said, const Cases& cases,
+                                     const Correction& correction) {
+  std::map<std::string, std::pair<double, double>> told;  // of an effect's runs, and all
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    auto& [apart, all] = told[truth_of(*cases[k])];
+    apart += !holds(set_of(said[k], correction), kNone), all += 1.0;
+  }
+  std::set<std::string> unseen;
+  for (const auto& [id, counts] : told)
+    if (id != kNone && counts.first < kSeen * counts.second) unseen.insert(id);
+  return unseen;
+}
+
+/// Widenings of intervals of θ and of upper limits.
+void learn_magnitudes(const Cases& cases, Correction& found) {
+  std::vector<double> all, limits;
   std::map<std::string, std::vector<double>> widenings;
   for (const auto* one : cases) {
-    const auto said = tempered(one->said, found.temperature);
-    needed.push_back(before(said, truth_of(*one)));
-    alarms.push_back(said_of(said, kUnknown)->probability);
-    const Hypothesis* truth = said_of(said, truth_of(*one));
+    const Hypothesis* truth = said_of(one->said, truth_of(*one));
     if (one->truth.empty() || !truth) continue;
     all.push_back(needed_widening(truth->magnitudes.front(), one->truth.begin()->second));
     widenings[truth->id].push_back(all.back());
   }
-  found.level = conformal(std::move(needed), confidence);
-  found.gate = conformal(std::move(alarms), 1.0 - kFalseAlarms);
-  if (all.empty()) return found;
+  if (all.empty()) return;
   found.widening_of_others = std::max(1.0, conformal(std::move(all), kOfTheta));
   for (auto& [id, values] : widenings) {
     const double n = static_cast<double>(values.size()),
@@ -104,12 +174,31 @@ Correction learn(const Cases& cases, double confidence) {
     found.widening[id] = std::max(
         1.0, std::exp((n * std::log(own) + kOfAll * std::log(found.widening_of_others)) / (n + kOfAll)));
   }
-  return found;
+  found.widening_of_limits = 1.0;
+  for (const auto* one : cases) {
+    const auto said = corrected(one->said, found);
+    if (const Hypothesis* truth = said_of(said, truth_of(*one)); truth && !one->truth.empty())
+      limits.push_back(std::fabs(one->truth.begin()->second) /
+                       std::max(1e-12, upper_limit(truth->magnitudes.front(), found)));
+  }
+  found.widening_of_limits = std::max(1.0, conformal(std::move(limits), kOfLimits));
 }
 
-/// Whether a set holds an answer by itself or in a pair that it stands for.
-bool holds(const AmbiguitySet& set, const std::string& id) {
-  return std::find(set.ids.begin(), set.ids.end(), id) != set.ids.end();
+Correction learn(const Cases& cases, double confidence) {
+  Correction found;
+  found.temperature = temperature_of(cases);
+  std::vector<std::vector<Hypothesis>> said;
+  std::vector<double> alarms;
+  for (const auto* one : cases) {
+    said.push_back(tempered(one->said, found.temperature));
+    alarms.push_back(said_of(said.back(), kUnknown)->probability);
+  }
+  found.gate = conformal(std::move(alarms), 1.0 - kFalseAlarms);
+  learn_levels(said, cases, confidence, found);
+  found.unseen = unseen_effects(said, cases, found);
+  learn_levels(said, cases, confidence, found);
+  learn_magnitudes(cases, found);
+  return found;
 }
 
 /// Adds what one replayed run shows of corrections that did not see its member.
@@ -118,7 +207,7 @@ void count(const Replayed& one, const Correction& correction, Promise& promise,
   const auto said = corrected(one.said, correction);
   const AmbiguitySet set = set_of(said, correction);
   const std::string truth = truth_of(one);
-  promise.in_set += holds(set, truth);
+  promise.in_set += right(set, truth, correction);
   promise.set_size += static_cast<double>(set.ids.size());
   promise.false_alarms += holds(set, kUnknown);
   const double top = said.front().probability;
@@ -130,12 +219,13 @@ void count(const Replayed& one, const Correction& correction, Promise& promise,
   ++effect.cases;
   effect.told_from_none += !holds(set, kNone);
   effect.first += said.front().id == truth;
+  effect.in_set += right(set, truth, correction);
   const Hypothesis* named = said_of(said, truth);
   if (!named) return;
   const auto& [low, high] = named->magnitudes.front().interval_90;
   const double theta = one.truth.begin()->second;
   promise.theta_held += low <= theta && theta <= high, magnitudes += 1.0;
-  promise.limits_held += std::fabs(theta) <= upper_limit(named->magnitudes.front());
+  promise.limits_held += std::fabs(theta) <= upper_limit(named->magnitudes.front(), correction);
 }
 
 /// "a+b" stands beside a or b.
@@ -149,8 +239,9 @@ bool adds_to(const std::string& pair, const std::vector<std::string>& ids) {
 
 }  // namespace
 
-double upper_limit(const Magnitude& magnitude) {
-  return std::max(std::fabs(magnitude.interval_90.first), std::fabs(magnitude.interval_90.second));
+double upper_limit(const Magnitude& magnitude, const Correction& correction) {
+  return correction.widening_of_limits *
+         std::max(std::fabs(magnitude.interval_90.first), std::fabs(magnitude.interval_90.second));
 }
 
 std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction) {
@@ -183,11 +274,14 @@ AmbiguitySet set_of(const std::vector<Hypothesis>& said, const Correction& corre
     double held = 0.0;
     for (const auto& h : said) {
       if (h.id == kUnknown) continue;
-      if (!adds_to(h.id, set.ids)) set.ids.push_back(h.id);
+      const auto own = correction.levels.find(h.id);
+      const bool in = held <= (own == correction.levels.end() ? correction.level : own->second);
+      if (in && !adds_to(h.id, set.ids)) set.ids.push_back(h.id);
       held += h.probability / known;
-      if (held > correction.level) break;
     }
   }
+  if (holds(set, kNone))
+    std::erase_if(set.ids, [&](const std::string& id) { return correction.unseen.contains(id); });
   if (unknown && !first && unknown->probability > correction.gate) set.ids.push_back(kUnknown);
   for (const auto& h : said)
     if (holds(set, h.id) || adds_to(h.id, set.ids)) set.probability += h.probability;
@@ -223,8 +317,6 @@ Promise promise_of(const std::vector<Replayed>& replayed, double confidence) {
     bin.said /= static_cast<double>(bin.cases), bin.came_true /= static_cast<double>(bin.cases);
     promise.reliability.push_back(bin);
   }
-  for (const auto& [id, effect] : promise.effects)
-    if (2 * effect.told_from_none < effect.cases) promise.unseen.push_back(id);
   return promise;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,23 +15,28 @@ struct Reliability {
   std::size_t cases = 0;
 };
 
-/// What the replay says of an effect: how many of its runs were told from none, and named first.
+/// What the replay says of an effect: how many of its runs were told from none, named first, and answered by
+/// a right set.
 struct EffectReplay {
-  std::size_t cases = 0, told_from_none = 0, first = 0;
+  std::size_t cases = 0, told_from_none = 0, first = 0, in_set = 0;
 };
 
 /// How probabilities, sets and intervals are made to hold what they promise, learnt from a replay; as it
 /// stands, for a bank that is too small for one: wide.
 struct Correction {
-  double temperature = 2.0;                     ///< by which logarithms of evidence are divided
-  double level = 0.95;                          ///< of the known explanations' probability, that a set holds
-  double gate = 0.1;                            ///< probability of `unknown` from which it belongs to the set
+  double temperature = 2.0;                   ///< by which logarithms of evidence are divided
+  double level = 0.95;                        ///< of the known explanations' probability, that a set holds
+  std::map<std::string, double> levels = {};  ///< likewise, for explanations that need another one to get in
+  double gate = 0.1;                          ///< probability of `unknown` from which it belongs to the set
   std::map<std::string, double> widening = {};  ///< of an effect's interval of θ
   double widening_of_others = 2.0;
+  double widening_of_limits = 2.0;    ///< of upper limits of |θ|, beside that of intervals
+  std::set<std::string> unseen = {};  ///< effects that a set which holds none does not hold
 };
 
-/// Upper limit of |θ|, one-sided at 95 %, of an effect that is there: the farther end of its 90 % interval.
-double upper_limit(const Magnitude& magnitude);
+/// Upper limit of |θ|, at 95 %, of an effect that is there: the farther end of its corrected interval,
+/// widened.
+double upper_limit(const Magnitude& magnitude, const Correction& correction);
 
 /// What a set of explanations is made of.
 struct AmbiguitySet {
@@ -49,23 +55,23 @@ struct Promise {
   double false_alarms = 0.0;  ///< share of known runs whose set holds `unknown`
   std::vector<Reliability> reliability;
   std::map<std::string, EffectReplay> effects;
-  std::vector<std::string>
-      unseen;  ///< effects that are not told from none in half of their runs; in the library's order
   Correction correction;
 };
 
 /// From replayed runs with one effect or none. `confidence` in (0, 1). Sets are split-conformal: the least
-/// level at which ⌈(n+1) confidence⌉ of n replayed sets hold their truth (Vovk et al. 2005); `unknown` is let
-/// in by the same rule at a false-alarm rate of 5 %; intervals of θ likewise at 90 %, those of effects with
-/// few runs drawn to what all need.
+/// level at which ⌈(n+1) confidence⌉ of n replayed sets hold their truth (Vovk et al. 2005). Effects that are
+/// told from none in less than half of their runs at that level are unseen: a set that holds none stands for
+/// them, and the level is found again. `unknown` is let in by the same rule at a false-alarm rate of 5 %;
+/// intervals of θ likewise at 90 %, those of effects with few runs drawn to what all need; upper limits at
+/// 95 %.
 Promise promise_of(const std::vector<Replayed>& replayed, double confidence);
 
 /// Probabilities by tempered evidence, and intervals widened about their means.
 std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction);
 
 /// Of corrected explanations: `unknown` where it passes the gate, alone where it has nineteen twentieths; and
-/// the most probable of the others until they hold the level. Pairs that only add to one that is in count for
-/// it.
+/// the most probable of the others until they hold the level, without unseen effects where none is among
+/// them. Pairs that only add to one that is in count for it.
 AmbiguitySet set_of(const std::vector<Hypothesis>& corrected, const Correction& correction);
 
 }  // namespace pendular::diagnosis

@@ -101,7 +101,7 @@ struct Diagnosis {
   double set_probability = 0.0;
   std::string nearest_signature;  ///< what naming by the least misfit would say: an effect, or "none"
   Promise promise;                ///< how far all this holds, from the replay
-  std::vector<Unseen> unseen;     ///< those of the promise that are not the best explanation
+  std::vector<Unseen> unseen;     ///< effects that the replay hardly shows and that are not in the set
   double goodness = 1.0;  ///< of the best explanation: probability of a misfit as large by noise alone
   std::vector<std::string> effects;  ///< rows of `signatures` and `separation`
   Eigen::MatrixXd signatures;        ///< effect × feature at the effect's scale, over the feature's noise

@@ -133,13 +133,12 @@ void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hyp
 }
 
 void set_unseen(const std::vector<Hypothesis>& hypotheses, Diagnosis& diagnosis) {
-  const auto& unseen = diagnosis.promise.unseen;
-  for (std::size_t k = 1; k < hypotheses.size(); ++k) {
-    const Hypothesis& h = hypotheses[k];
-    if (std::find(unseen.begin(), unseen.end(), h.id) != unseen.end())
-      diagnosis.unseen.push_back(
-          {h.id, effects::find_effect(h.id, "diagnosis").unit, upper_limit(h.magnitudes.front())});
-  }
+  const Correction& correction = diagnosis.promise.correction;
+  const auto& set = diagnosis.ambiguity_set;
+  for (const auto& h : hypotheses)
+    if (correction.unseen.contains(h.id) && std::find(set.begin(), set.end(), h.id) == set.end())
+      diagnosis.unseen.push_back({h.id, effects::find_effect(h.id, "diagnosis").unit,
+                                  upper_limit(h.magnitudes.front(), correction)});
 }
 
 void set_groups(const Problem& problem, const Experiment& experiment, Diagnosis& diagnosis) {

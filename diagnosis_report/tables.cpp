@@ -132,11 +132,12 @@ Table excluded_table(const Diagnosis& d) {
 }
 
 Table promise_table(const Diagnosis& d) {
-  Table table{"promises", {"effect", "replayed_runs", "told_from_none", "named_first"}, {}};
+  Table table{"promises", {"effect", "replayed_runs", "told_from_none", "named_first", "in_set"}, {}};
   for (const auto& [id, effect] : d.promise.effects) {
     const double runs = static_cast<double>(effect.cases);
     table.rows.push_back({id, runs, static_cast<double>(effect.told_from_none) / runs,
-                          static_cast<double>(effect.first) / runs});
+                          static_cast<double>(effect.first) / runs,
+                          static_cast<double>(effect.in_set) / runs});
   }
   return table;
 }

@@ -128,7 +128,27 @@ TEST(Calibration, EffectsThatLookLikeNoneAreListed) {
     std::stable_sort(one.said.begin(), one.said.end(),
                      [](const auto& a, const auto& b) { return a.probability > b.probability; });
   const Promise promise = promise_of(all, 0.8);
-  EXPECT_EQ(promise.unseen, (std::vector<std::string>{"c"}));
+  EXPECT_EQ(promise.correction.unseen, (std::set<std::string>{"c"}));
+  // None stands for it.
+  EXPECT_EQ(promise.effects.at("c").in_set, promise.effects.at("c").cases);
+  EXPECT_GE(promise.in_set, 0.78);
+  const auto set = [&](std::initializer_list<std::pair<const char*, double>> said) {
+    std::vector<Hypothesis> hypotheses;
+    for (const auto& [id, probability] : said) hypotheses.push_back({id, 0.0, probability, {}, 0.0});
+    Correction correction = promise.correction;
+    correction.level = 0.9, correction.levels.clear(), correction.gate = 1.0;
+    return set_of(hypotheses, correction).ids;
+  };
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(set({{"none", 0.5}, {"c", 0.4}, {"a", 0.1}}), (Ids{"none", "a"}));
+  EXPECT_EQ(set({{"c", 0.5}, {"a", 0.45}, {"none", 0.05}}), (Ids{"c", "a"}));  // it shows for once
+}
+
+TEST(Calibration, UpperLimitsHoldAsOftenAsTheySay) {
+  for (const double error : {1.0, 2.5}) {
+    const Promise promise = promise_of(runs(1.0, error, 7), 0.95);
+    EXPECT_GE(promise.limits_held, 0.93) << error;
+  }
 }
 
 }  // namespace

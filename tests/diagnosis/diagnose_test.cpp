@@ -96,7 +96,10 @@ TEST_F(Diagnose, PromisesWhatReplayedRunsShowForAnyNumberOfThreads) {
   const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   const Diagnosis serial = diagnosed();
   EXPECT_GT(parallel.promise.cases, 100u);
-  EXPECT_NEAR(parallel.promise.in_set, 0.95, 0.03);
+  // Most effects do nothing to the toy: none stands for them.
+  EXPECT_GE(parallel.promise.in_set, 0.93);
+  EXPECT_TRUE(parallel.promise.correction.unseen.contains("residual_stress"));
+  EXPECT_FALSE(parallel.promise.correction.unseen.contains("missing_bridges"));
   EXPECT_NEAR(parallel.promise.theta_held, 0.9, 0.05);
   EXPECT_LT(parallel.promise.false_alarms, 0.1);
   EXPECT_EQ(parallel.promise.set_size, serial.promise.set_size);
