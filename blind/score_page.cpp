@@ -52,8 +52,7 @@ std::string bars_table(const Scores& s) {
        [](const Bars& b) { return share_text(b.magnitude.median_relative_error); });
   text += fmt::format(
       "\nEffects too small to be seen, which count nowhere else: `none` or the effect in the set {}; "
-      "something else "
-      "above 0.9 {}.\n",
+      "something else above 0.9 {}.\n",
       words(s.hidden.allowed), words(s.hidden.misnamed));
   return text;
 }
@@ -103,9 +102,8 @@ std::string stratum_rows(const std::map<Stratum, Of>& strata, const Of& all, con
 /// By name and by class side by side.
 std::string names_table(const Scores& s) {
   std::string text =
-      "| stratum | in the set: by name | by class | set size: by name | by class | most probable: by name | "
-      "by class | "
-      "above 0.9 and wrong: by name | by class |\n"
+      "| stratum | in the set: by name | by class | set size: by name | by class "
+      "| most probable: by name | by class | above 0.9 and wrong: by name | by class |\n"
       "|---|---|---|---|---|---|---|---|---|\n";
   text += stratum_rows(s.by_stratum, s.all, [&](const Naming& name, const Stratum* stratum) {
     const Naming& alike = stratum ? s.by_stratum_and_class.at(*stratum) : s.all_by_class;
@@ -113,23 +111,21 @@ std::string names_table(const Scores& s) {
                        number(name.set_size), number(alike.set_size), words(name.exact), words(alike.exact),
                        words(name.confidently_wrong), words(alike.confidently_wrong));
   });
-  return text + fmt::format(
-                    "\nBy class, answers count as one with the truth that are nearer to it than {:g} "
-                    "standard deviations "
-                    "of the noise on the case's own observations, at its magnitude: an ideal observer could "
-                    "not tell "
-                    "them apart. The truth of outside mechanisms is in no class. {} of {} cases have a "
-                    "diagnosis that "
-                    "states such distances; in the others the name alone counts.\n",
-                    kTold, s.with_distances, s.all.in_set.of);
+  return text +
+         fmt::format(
+             "\nBy class, answers count as one with the truth that are nearer to it than {:g} standard "
+             "deviations of the noise on the case's own observations, at its magnitude: an ideal observer "
+             "could not tell them apart. Outside mechanisms are in no class. {} of {} cases have a diagnosis "
+             "that states such distances; in the others the name alone counts.\n",
+             kTold, s.with_distances, s.all.in_set.of);
 }
 
 /// What reports promised beside what came of it.
 std::string kept_table(const Scores& s) {
   std::string text =
-      "| stratum | in the set: promised | reached | set size: promised | reached | false alarms of `unknown` "
-      "| "
-      "θ in its 90 % interval | upper limits that hold | above 0.9 and wrong |\n"
+      "| stratum | in the set: promised | reached | set size: promised | reached "
+      "| false alarms of `unknown` | θ in its 90 % interval | upper limits that hold "
+      "| above 0.9 and wrong |\n"
       "|---|---|---|---|---|---|---|---|---|\n";
   text += stratum_rows(s.kept_by_stratum, s.kept, [](const Kept& k, const Stratum*) {
     return fmt::format("{} | {} | {} | {} | {} | {} | {} | {}", share_text(k.promised_in_set),
@@ -138,11 +134,10 @@ std::string kept_table(const Scores& s) {
   });
   return text +
          fmt::format(
-             "| aim | | 93–97 %, each stratum ≥ 90 % | | | ≤ 5 % | 88–92 % | ≥ 95 % | ≤ 1 % |\n\nPromised "
-             "and "
-             "reached are of the {} cases that replays stand for: nothing or one effect of the library "
-             "withheld, and a bank large enough to promise. Upper limits are those of effects that are there "
-             "and that the report calls hardly shown.\n",
+             "| aim | | 93–97 %, each stratum ≥ 90 % | | | ≤ 5 % | 88–92 % | ≥ 95 % | ≤ 1 % |\n\n"
+             "Promised and reached are of the {} cases that replays stand for: nothing or one effect of the "
+             "library withheld, and a bank large enough to promise. Upper limits are those of effects that "
+             "are there, hidden ones too, and that the report calls hardly shown.\n",
              s.kept.promises);
 }
 

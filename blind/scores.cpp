@@ -130,6 +130,18 @@ bool is_replayed(const Verdict& verdict) {
   return verdict.truth.mechanism.empty() && verdict.truth.effects.size() < 2 && verdict.answer != "unknown";
 }
 
+/// Upper limits of effects that are there and that reports call hardly shown.
+Proportion limits_held(const std::vector<Verdict>& verdicts) {
+  Proportion held;
+  for (const auto& verdict : verdicts) {
+    if (!verdict.said) continue;
+    for (const auto& [id, theta] : verdict.truth.effects)
+      if (const auto limit = verdict.said->limits.find(id); limit != verdict.said->limits.end())
+        held.count(std::fabs(theta) <= limit->second);
+  }
+  return held;
+}
+
 Kept kept(const std::vector<Verdict>& verdicts) {
   Kept kept;
   std::vector<double> in_set, size, theta, alarms, sizes;
@@ -137,9 +149,6 @@ Kept kept(const std::vector<Verdict>& verdicts) {
     kept.confidently_wrong.count(verdict.confidently_wrong());
     if (!verdict.said) continue;
     if (verdict.answer != "unknown") kept.unknown_alarms.count(verdict.in_set("unknown"));
-    for (const auto& [id, magnitude] : verdict.truth.effects)
-      if (const auto limit = verdict.said->limits.find(id); limit != verdict.said->limits.end())
-        kept.limits.count(std::fabs(magnitude) <= limit->second);
     const auto& promised = verdict.said->promised;
     if (!promised || !is_replayed(verdict)) continue;
     in_set.push_back(promised->in_set), size.push_back(promised->set_size);
@@ -218,7 +227,7 @@ Scores score(const std::vector<Verdict>& all, bool without_truth) {
         bars(those(verdicts, other));
   }
   scores.all = naming(verdicts), scores.all_by_class = naming(verdicts, Counting::by_class);
-  scores.kept = kept(verdicts);
+  scores.kept = kept(verdicts), scores.kept.limits = limits_held(all);
   std::vector<Verdict> priors;
   for (const auto& verdict : verdicts) {
     scores.failed += !verdict.said;
@@ -236,6 +245,7 @@ Scores score(const std::vector<Verdict>& all, bool without_truth) {
     if (!scores.by_stratum.contains(stratum)) {
       const auto cases = those(verdicts, like);
       scores.by_stratum[stratum] = naming(cases), scores.kept_by_stratum[stratum] = kept(cases);
+      scores.kept_by_stratum[stratum].limits = limits_held(those(all, like));
       scores.by_stratum_and_class[stratum] = naming(cases, Counting::by_class);
     }
     const auto same = [&](const Verdict& other) { return other.answer == verdict.answer; };

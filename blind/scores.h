@@ -49,14 +49,14 @@ struct ShrinkageScore {
 
 /// What diagnoses promise beside what came of it, for all cases or for one stratum.
 struct Kept {
-  std::size_t promises =
-      0;  ///< cases that the replay stands for: nothing or one effect withheld, and a promise
-  double promised_in_set = 0.0, promised_size = 0.0, promised_theta = 0.0,
-         promised_alarms = 0.0;  ///< means of these
-  Proportion in_set;             ///< of the same cases
-  double set_size = 0.0;         ///< likewise
-  Proportion unknown_alarms;     ///< right answer not `unknown`, and it is in the set
-  Proportion limits;  ///< upper limits of hardly shown effects that are there, and |θ| is not above
+  /// Cases that the replay stands for: nothing or one effect withheld, and a promise. Means of what it said.
+  std::size_t promises = 0;
+  double promised_in_set = 0.0, promised_size = 0.0, promised_theta = 0.0, promised_alarms = 0.0;
+  Proportion in_set;          ///< of the same cases
+  double set_size = 0.0;      ///< likewise
+  Proportion unknown_alarms;  ///< right answer not `unknown`, and it is in the set
+  /// Upper limits of hardly shown effects that are there, hidden ones too: |θ| is not above.
+  Proportion limits;
   MagnitudeScore magnitude;
   Proportion confidently_wrong;
   std::vector<ReliabilityBin> reliability;

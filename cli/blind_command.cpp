@@ -134,9 +134,9 @@ void add_blind_oracle(CLI::App& blind) {
   auto options = std::make_shared<OracleOptions>();
   auto* command = blind.add_subcommand(
       "oracle",
-      "Measures what the true effects of each case close of the gap, for reports that say how far it "
-      "shrinks:\n"
-      "REPORTS/NAME/oracle.json, which `score` sets beside what was closed. Opens the sealed truth.");
+      "Measures what the true effects of each case close of the gap, for reports that say how far it\n"
+      "shrinks: REPORTS/NAME/oracle.json, which `score` sets beside what was closed. Opens the sealed "
+      "truth.");
   command->add_option("folder", options->folder, "Folder of `pendular blind make`")->required();
   add_run_making(*command, options->making);
   add_common(*command, options->common, "Folder of `pendular blind diagnose`");

@@ -43,8 +43,7 @@ std::string cause(const Diagnosis& diagnosis) {
                        probability, joined(rest, kListed));
   return fmt::format(
       "The cause is not known: {} explanations, {} together, cannot be told apart; the most probable is {}, "
-      "{}; the "
-      "others are {}.",
+      "{}; the others are {}.",
       rest.size() + 1, percent(diagnosis.set_probability), in_words(best), probability,
       joined(rest, kListed));
 }

@@ -94,10 +94,8 @@ viz::ReportSection promise_section(const Diagnosis& d) {
                    {});
   std::string text = fmt::format(
       "{} simulated runs of known truth were diagnosed as if they had been measured, each by a bank without "
-      "its "
-      "member. The set held the truth in {} of them (asked for: {}), with {} members at the mean and "
-      "something not in "
-      "the library among them in {}; 90 % intervals held the magnitude in {}.",
+      "its member. The set held the truth in {} of them (asked for: {}), with {} members at the mean and "
+      "something not in the library among them in {}; 90 % intervals held the magnitude in {}.",
       p.cases, percent(p.in_set), percent(p.confidence), rounded(p.set_size), percent(p.false_alarms),
       percent(p.theta_held));
   std::vector<std::string> hidden;

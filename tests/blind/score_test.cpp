@@ -44,6 +44,13 @@ void report(const fs::path& folder, const json& hypotheses, const json& set, dou
   write_text(folder / "diagnosis.json", diagnosis.dump());
 }
 
+/// Adds to the report of a case.
+void add_to_report(const fs::path& folder, const json& more) {
+  json diagnosis = json::parse(read_text(folder / "diagnosis.json"));
+  diagnosis.update(more);
+  write_text(folder / "diagnosis.json", diagnosis.dump());
+}
+
 /// Seven cases of which all scores can be reckoned by hand.
 class Score : public ::testing::Test {
  protected:
@@ -107,6 +114,8 @@ TEST_F(Score, HiddenEffectsCountByThemselves) {
   seals += seal(root, "s1", "library", "platen_tilt", tilt, "", {{"hidden", false}, {"scanned", true}});
   write_text(root / "seals.csv", seals);
   report(reports / "h1", {claim("none", 0.9), claim("unknown", 0.1)}, {"none"});
+  json unseen = {{"unseen", {{{"effect", "platen_tilt"}, {"limit_95", 0.1}}}}};
+  add_to_report(reports / "h1", unseen);
   report(reports / "h2", {claim("platen_tilt", 0.95), claim("none", 0.05)}, {"platen_tilt"});
   report(reports / "h3", {claim("grit", 0.95), claim("none", 0.05)}, {"grit"});
   report(reports / "s1", {claim("platen_tilt", 0.95, 0.011, 0.009, 0.012), claim("none", 0.05)},
@@ -115,17 +124,12 @@ TEST_F(Score, HiddenEffectsCountByThemselves) {
   EXPECT_EQ(s.hidden.allowed.of, 3u);
   EXPECT_EQ(s.hidden.allowed.hits, 2u);
   EXPECT_EQ(s.hidden.misnamed.hits, 1u);
+  EXPECT_EQ(s.kept.limits.of, 1u);
+  EXPECT_EQ(s.kept.limits.hits, 1u);
   EXPECT_EQ(s.all.in_set.of, 1u);
   EXPECT_EQ(s.with_scan.single_first.hits, 1u);
   EXPECT_EQ(s.with_scan.magnitude.covered.hits, 1u);
   EXPECT_EQ(s.without_scan.naming.in_set.of, 0u);
-}
-
-/// Adds to the report of a case.
-void add_to_report(const fs::path& folder, const json& more) {
-  json diagnosis = json::parse(read_text(folder / "diagnosis.json"));
-  diagnosis.update(more);
-  write_text(folder / "diagnosis.json", diagnosis.dump());
 }
 
 /// Squared distances at usual magnitudes: friction is 2 from none and 4 from missing bridges, and so on.
