@@ -9,6 +9,9 @@
 namespace pendular::blind {
 namespace {
 
+constexpr double kConfident = 0.9;
+constexpr double kReached = 0.7;  // of what the true effects close
+
 template <typename Wanted>
 std::vector<Verdict> those(const std::vector<Verdict>& verdicts, const Wanted& wanted) {
   std::vector<Verdict> found;
@@ -16,18 +19,32 @@ std::vector<Verdict> those(const std::vector<Verdict>& verdicts, const Wanted& w
   return found;
 }
 
-Naming naming(const std::vector<Verdict>& verdicts) {
+/// Probability of all right answers.
+double right_probability(const Verdict& verdict, Counting counting) {
+  double sum = 0.0;
+  if (verdict.said)
+    for (const auto& [id, claim] : verdict.said->claims)
+      if (is_right(verdict, id, counting)) sum += claim.probability;
+  return sum;
+}
+
+Naming naming(const std::vector<Verdict>& verdicts, Counting counting = Counting::by_name) {
   Naming naming;
   std::vector<double> sizes, logs, briers;
   for (const auto& verdict : verdicts) {
-    naming.in_set.count(verdict.in_set(verdict.answer));
-    naming.exact.count(verdict.exact());
-    naming.confidently_wrong.count(verdict.confidently_wrong());
-    logs.push_back(log_score(verdict));
-    briers.push_back(brier_score(verdict));
+    const auto right = [&](const std::string& id) { return is_right(verdict, id, counting); };
+    const std::vector<std::string> set = verdict.said ? verdict.said->set : std::vector<std::string>{};
+    const auto rights = std::count_if(set.begin(), set.end(), right);
+    const bool exact = verdict.said && right(verdict.top());
+    naming.in_set.count(rights > 0);
+    naming.exact.count(exact);
+    naming.confidently_wrong.count(verdict.said && !exact && verdict.probability(verdict.top()) > kConfident);
+    logs.push_back(log_score(verdict, counting));
+    briers.push_back(brier_score(verdict, counting));
     if (!verdict.said) continue;
-    sizes.push_back(static_cast<double>(verdict.said->set.size()));
-    if (verdict.said->set.size() == 1) naming.exact_separable.count(verdict.exact());
+    const auto size = static_cast<std::ptrdiff_t>(set.size()) - std::max<std::ptrdiff_t>(0, rights - 1);
+    sizes.push_back(static_cast<double>(size));
+    if (size == 1) naming.exact_separable.count(exact);
   }
   naming.set_size = mean(sizes), naming.log_score = mean(logs), naming.brier = mean(briers);
   return naming;
@@ -54,7 +71,7 @@ Verdict by_priors(const Verdict& verdict) {
 std::vector<ReliabilityBin> reliability(const std::vector<Verdict>& verdicts) {
   std::vector<ReliabilityBin> bins;
   double from = 0.0;
-  for (const double to : {0.3, 0.5, 0.7, 0.9, 1.0}) {
+  for (const double to : {0.4, 0.6, 0.8, 0.9, 1.0}) {  // those of a report
     ReliabilityBin bin{from, to, 0.0, {}};
     std::vector<double> said;
     for (const auto& verdict : verdicts) {
@@ -88,16 +105,63 @@ MagnitudeScore magnitudes(const std::vector<Verdict>& verdicts) {
 }
 
 ShrinkageScore shrinkage(const std::vector<Verdict>& verdicts) {
-  std::vector<double> withheld, retuned, wrong, above;
+  ShrinkageScore found;
+  std::vector<double> withheld, retuned, wrong, above, closable, closed;
   for (const auto& verdict : verdicts) {
     if (!verdict.said || verdict.truth.effects.empty() || !verdict.said->withheld) continue;
     withheld.push_back(*verdict.said->withheld);
     if (verdict.said->wrong_effect) wrong.push_back(*verdict.said->wrong_effect);
+    if (verdict.said->closable) {
+      closable.push_back(*verdict.said->closable), closed.push_back(withheld.back());
+      found.reached.count(closed.back() >= kReached * closable.back());
+    }
     if (!verdict.said->retuned) continue;
     retuned.push_back(*verdict.said->retuned);
     above.push_back(withheld.back() - retuned.back());
   }
-  return {withheld.size(), median(withheld), median(retuned), median(wrong), median(above)};
+  found.cases = withheld.size(), found.oracles = closable.size();
+  found.withheld = median(withheld), found.retuned = median(retuned), found.wrong_effect = median(wrong);
+  found.above_retuned = median(above), found.closable = median(closable), found.closed = median(closed);
+  return found;
+}
+
+/// Whether the replay of a diagnosis has cases like this one.
+bool is_replayed(const Verdict& verdict) {
+  return verdict.truth.mechanism.empty() && verdict.truth.effects.size() < 2 && verdict.answer != "unknown";
+}
+
+/// Upper limits of effects that are there and that reports call hardly shown.
+Proportion limits_held(const std::vector<Verdict>& verdicts) {
+  Proportion held;
+  for (const auto& verdict : verdicts) {
+    if (!verdict.said) continue;
+    for (const auto& [id, theta] : verdict.truth.effects)
+      if (const auto limit = verdict.said->limits.find(id); limit != verdict.said->limits.end())
+        held.count(std::fabs(theta) <= limit->second);
+  }
+  return held;
+}
+
+Kept kept(const std::vector<Verdict>& verdicts) {
+  Kept kept;
+  std::vector<double> in_set, size, theta, alarms, sizes;
+  for (const auto& verdict : verdicts) {
+    kept.confidently_wrong.count(verdict.confidently_wrong());
+    if (!verdict.said) continue;
+    if (verdict.answer != "unknown") kept.unknown_alarms.count(verdict.in_set("unknown"));
+    const auto& promised = verdict.said->promised;
+    if (!promised || !is_replayed(verdict)) continue;
+    in_set.push_back(promised->in_set), size.push_back(promised->set_size);
+    theta.push_back(promised->theta_held), alarms.push_back(promised->false_alarms);
+    kept.in_set.count(verdict.in_set(verdict.answer));
+    sizes.push_back(static_cast<double>(verdict.said->set.size()));
+  }
+  kept.promises = in_set.size(), kept.set_size = mean(sizes);
+  kept.promised_in_set = mean(in_set), kept.promised_size = mean(size);
+  kept.promised_theta = mean(theta), kept.promised_alarms = mean(alarms);
+  kept.magnitude = magnitudes(verdicts);
+  kept.reliability = reliability(verdicts);
+  return kept;
 }
 
 Bars bars(const std::vector<Verdict>& verdicts) {
@@ -137,15 +201,15 @@ void score_unknown(Scores& scores, const std::vector<Verdict>& verdicts) {
 
 }  // namespace
 
-double log_score(const Verdict& verdict) {
-  return -std::log(std::max(kLeastProbability, verdict.probability(verdict.answer)));
+double log_score(const Verdict& verdict, Counting counting) {
+  return -std::log(std::max(kLeastProbability, right_probability(verdict, counting)));
 }
 
-double brier_score(const Verdict& verdict) {
+double brier_score(const Verdict& verdict, Counting counting) {
   if (!verdict.said) return 2.0;
-  double sum = std::pow(1.0 - verdict.probability(verdict.answer), 2);
+  double sum = std::pow(1.0 - right_probability(verdict, counting), 2);
   for (const auto& [id, claim] : verdict.said->claims)
-    if (id != verdict.answer) sum += claim.probability * claim.probability;
+    if (!is_right(verdict, id, counting)) sum += claim.probability * claim.probability;
   return sum;
 }
 
@@ -159,12 +223,15 @@ Scores score(const std::vector<Verdict>& all, bool without_truth) {
     const auto like = [&](const Verdict& v) { return v.truth.scanned == scanned; };
     const auto other = [&](const Verdict& v) { return like(v) && v.truth.stratum == Stratum::other_engine; };
     (scanned ? scores.with_scan : scores.without_scan) = bars(those(verdicts, like));
-    (scanned ? scores.other_engine_with_scan : scores.other_engine_without_scan) = bars(those(verdicts, other));
+    (scanned ? scores.other_engine_with_scan : scores.other_engine_without_scan) =
+        bars(those(verdicts, other));
   }
-  scores.all = naming(verdicts);
+  scores.all = naming(verdicts), scores.all_by_class = naming(verdicts, Counting::by_class);
+  scores.kept = kept(verdicts), scores.kept.limits = limits_held(all);
   std::vector<Verdict> priors;
   for (const auto& verdict : verdicts) {
     scores.failed += !verdict.said;
+    scores.with_distances += verdict.said && !verdict.said->squared_distance.empty();
     priors.push_back(by_priors(verdict));
     if (verdict.said && verdict.said->nearest_signature)
       scores.nearest_signature.count(*verdict.said->nearest_signature == verdict.answer);
@@ -174,14 +241,19 @@ Scores score(const std::vector<Verdict>& all, bool without_truth) {
   }
   for (const auto& verdict : verdicts) {
     const auto like = [&](const Verdict& other) { return other.truth.stratum == verdict.truth.stratum; };
-    scores.by_stratum[verdict.truth.stratum] = naming(those(verdicts, like));
+    const Stratum stratum = verdict.truth.stratum;
+    if (!scores.by_stratum.contains(stratum)) {
+      const auto cases = those(verdicts, like);
+      scores.by_stratum[stratum] = naming(cases), scores.kept_by_stratum[stratum] = kept(cases);
+      scores.kept_by_stratum[stratum].limits = limits_held(those(all, like));
+      scores.by_stratum_and_class[stratum] = naming(cases, Counting::by_class);
+    }
     const auto same = [&](const Verdict& other) { return other.answer == verdict.answer; };
     scores.by_answer[verdict.answer] = naming(those(verdicts, same));
   }
   const Naming prior = naming(priors);
   scores.prior_log_score = prior.log_score, scores.prior_brier = prior.brier;
   score_unknown(scores, verdicts);
-  scores.reliability = reliability(verdicts);
   scores.magnitude = magnitudes(verdicts);
   scores.magnitude_where_named = magnitudes(those(verdicts, [](const Verdict& v) { return v.exact(); }));
   scores.shrinkage = shrinkage(verdicts);

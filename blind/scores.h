@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "blind/alike.h"
 #include "blind/proportion.h"
-#include "blind/verdict.h"
 
 namespace pendular::blind {
 
@@ -16,7 +16,7 @@ struct Naming {
   Proportion exact;              ///< it is the most probable
   Proportion exact_separable;    ///< the same, of cases whose set has one member
   Proportion confidently_wrong;  ///< something else has a probability above 0.9
-  double set_size = 0.0;         ///< mean, of the cases with a diagnosis
+  double set_size = 0.0;         ///< mean, of the cases with a diagnosis; right answers count as one
   double log_score = 0.0;        ///< mean of −ln P(truth), P at least kLeastProbability
   double brier = 0.0;  ///< mean over cases of Σ (P − truth)² over explanations; 2 without diagnosis
 };
@@ -40,12 +40,32 @@ struct MagnitudeScore {
 struct ShrinkageScore {
   std::size_t cases = 0;
   double withheld = 0.0, retuned = 0.0, wrong_effect = 0.0, above_retuned = 0.0;
+  /// Where it is known what the true effects close (measure_oracles()): that, what was closed, and in how
+  /// many cases it was 0.7 of that and more.
+  std::size_t oracles = 0;
+  double closable = 0.0, closed = 0.0;
+  Proportion reached;
+};
+
+/// What diagnoses promise beside what came of it, for all cases or for one stratum.
+struct Kept {
+  /// Cases that the replay stands for: nothing or one effect withheld, and a promise. Means of what it said.
+  std::size_t promises = 0;
+  double promised_in_set = 0.0, promised_size = 0.0, promised_theta = 0.0, promised_alarms = 0.0;
+  Proportion in_set;          ///< of the same cases
+  double set_size = 0.0;      ///< likewise
+  Proportion unknown_alarms;  ///< right answer not `unknown`, and it is in the set
+  /// Upper limits of hardly shown effects that are there, hidden ones too: |θ| is not above.
+  Proportion limits;
+  MagnitudeScore magnitude;
+  Proportion confidently_wrong;
+  std::vector<ReliabilityBin> reliability;
 };
 
 /// What is promised, of cases with or without a scan.
 struct Bars {
   Naming naming;
-  Proportion single_first;   ///< one effect was withheld, and it is the most probable
+  Proportion single_first;  ///< one effect was withheld, and it is the most probable
   Proportion pairs_in_set;
   Proportion flagged;        ///< outside mechanisms: `unknown` is in the set or first
   Proportion misnamed;       ///< outside mechanisms: something else above 0.9
@@ -62,7 +82,11 @@ struct Scores {
   bool without_truth = false;
   std::size_t cases = 0, failed = 0;
   Naming all;
-  std::map<Stratum, Naming> by_stratum;
+  Naming all_by_class;             ///< answers that an ideal observer cannot tell apart are one
+  std::size_t with_distances = 0;  ///< cases whose diagnosis says which these are
+  std::map<Stratum, Naming> by_stratum, by_stratum_and_class;
+  Kept kept;
+  std::map<Stratum, Kept> kept_by_stratum;
   std::map<std::string, Naming> by_answer;
   double prior_log_score = 0.0, prior_brier = 0.0;  ///< of the priors alone
   Proportion nearest_signature;                     ///< exact, where reports name it
@@ -71,10 +95,9 @@ struct Scores {
   Proportion flagged;   ///< right answer unknown: it is in the set or the most probable
   Proportion misnamed;  ///< right answer unknown: something else above 0.9
   double auroc_unknown = 0.0;
-  std::vector<ReliabilityBin> reliability;
   MagnitudeScore magnitude, magnitude_where_named;
   ShrinkageScore shrinkage;
-  Bars without_scan, with_scan;                              ///< of all engines
+  Bars without_scan, with_scan;                            ///< of all engines
   Bars other_engine_without_scan, other_engine_with_scan;  ///< of the stratum other_engine alone
   HiddenScore hidden;
 };
@@ -82,7 +105,7 @@ struct Scores {
 Scores score(const std::vector<Verdict>& all, bool without_truth);
 
 /// −ln P(truth) and Brier score of one case.
-double log_score(const Verdict& verdict);
-double brier_score(const Verdict& verdict);
+double log_score(const Verdict& verdict, Counting counting = Counting::by_name);
+double brier_score(const Verdict& verdict, Counting counting = Counting::by_name);
 
 }  // namespace pendular::blind

@@ -60,6 +60,27 @@ void read_shrinkage(Diagnosed& said, const json& shrinkage) {
   said.wrong_effect = number_in(*controls, "wrong_effect");
 }
 
+void read_promise(Diagnosed& said, const json& promise) {
+  const auto in_set = number_in(promise, "in_set"), size = number_in(promise, "set_size"),
+             theta = number_in(promise, "theta_held"), alarms = number_in(promise, "false_alarms");
+  if (in_set && size && theta && alarms) said.promised = {*in_set, *size, *theta, *alarms};
+}
+
+/// The last column is the distance from none.
+void read_separation(Diagnosed& said, const json& separation) {
+  const auto effects = separation.at("effects").get<std::vector<std::string>>();
+  const json& rows = separation.at("squared_distance");
+  for (std::size_t a = 0; a < effects.size(); ++a)
+    for (std::size_t b = 0; b <= effects.size(); ++b)
+      if (const json& value = rows.at(a).at(b); value.is_number() && a != b)
+        said.squared_distance[effects[a]][b < effects.size() ? effects[b] : "none"] = value.get<double>();
+}
+
+std::optional<double> read_oracle(const fs::path& path) {
+  if (!fs::exists(path)) return std::nullopt;
+  return read_json<std::optional<double>>(path, [](const json& read) { return number_in(read, "fraction"); });
+}
+
 std::string farthest_belief(const json& truth) {
   std::string key;
   double farthest = 0.0;
@@ -159,6 +180,12 @@ Diagnosed read_diagnosis(const fs::path& path) {
     read_shrinkage(said, read.at("shrinkage"));
     if (const auto nearest = read.find("nearest_signature"); nearest != read.end() && nearest->is_string())
       said.nearest_signature = in_order(nearest->get<std::string>());
+    if (read.contains("promise")) read_promise(said, read["promise"]);
+    if (read.contains("unseen"))
+      for (const auto& one : read["unseen"])
+        if (const auto limit = number_in(one, "limit_95"))
+          said.limits[one.at("effect").get<std::string>()] = *limit;
+    if (read.contains("separation")) read_separation(said, read["separation"]);
     return said;
   });
 }
@@ -172,10 +199,12 @@ std::vector<Verdict> verdicts(const std::vector<Truth>& truths, const fs::path& 
     Verdict verdict{truth, left_out ? "unknown" : truth.answer, std::nullopt, ""};
     const fs::path path = reports / truth.name / "diagnosis.json";
     try {
-      if (fs::exists(path))
+      if (fs::exists(path)) {
         verdict.said = read_diagnosis(path);
-      else
+        verdict.said->closable = read_oracle(reports / truth.name / kOracle);
+      } else {
         verdict.failure = "no diagnosis.json";
+      }
     } catch (const BadInput& error) {
       verdict.failure = error.what();
     }

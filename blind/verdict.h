@@ -32,12 +32,23 @@ struct Claim {
   std::optional<std::pair<double, double>> interval_90;
 };
 
+/// What a diagnosis promised of cases like it, from its replay.
+struct Promised {
+  double in_set = 0.0, set_size = 0.0, theta_held = 0.0, false_alarms = 0.0;
+};
+
 /// What was said of one case.
 struct Diagnosed {
   std::map<std::string, Claim> claims;  ///< by id; pairs "a+b" with a before b in the alphabet
   std::vector<std::string> set;         ///< the ambiguity set, likewise
   std::optional<double> withheld, retuned, wrong_effect;  ///< fractions of the withheld gap closed
+  std::optional<double> closable;  ///< fraction that the true effects close (measure_oracles())
   std::optional<std::string> nearest_signature;
+  std::optional<Promised> promised;
+  std::map<std::string, double> limits;  ///< upper limits of |θ| of effects that are hardly shown
+  /// Squared distance of each effect at its usual magnitude from the nearest that another can do, and from
+  /// "none".
+  std::map<std::string, std::map<std::string, double>> squared_distance;
 };
 
 /// A case, what was right to say of it, and what was said; nothing where its diagnosis is missing or cannot
@@ -54,6 +65,9 @@ struct Verdict {
   bool exact() const { return said && top() == answer; }
   bool confidently_wrong() const { return said && !exact() && probability(top()) > 0.9; }
 };
+
+/// The file in the report of a case that has what its true effects close.
+inline constexpr const char* kOracle = "oracle.json";
 
 /// Both halves of a pair in alphabetical order.
 std::string in_order(const std::string& id);

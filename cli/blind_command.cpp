@@ -5,8 +5,10 @@
 #include "base/progress.h"
 #include "blind/diagnose.h"
 #include "blind/make.h"
+#include "blind/oracle.h"
 #include "blind/score_files.h"
 #include "cli/command.h"
+#include "cli/run_making.h"
 
 namespace pendular::cli {
 namespace {
@@ -110,6 +112,37 @@ void add_blind_diagnose(CLI::App& blind) {
   command->callback([options, command] { diagnose(*options, command->remaining()); });
 }
 
+struct OracleOptions {
+  Common common;
+  RunMaking making;
+  fs::path folder;
+};
+
+void oracle(const OracleOptions& options) {
+  apply(options.common);
+  check(options.making);
+  const fs::path beads = options.making.store_folder(options.common) / "measured";
+  const auto measured =
+      blind::measure_oracles({options.folder}, options.common.out, beads,
+                             [&](const std::string& name, std::span<const sweep::RunRequest> requests) {
+                               return make_runs(options.making, options.common, name, requests);
+                             });
+  say(fmt::format("{} cases: what their true effects close", measured.size()));
+}
+
+void add_blind_oracle(CLI::App& blind) {
+  auto options = std::make_shared<OracleOptions>();
+  auto* command = blind.add_subcommand(
+      "oracle",
+      "Measures what the true effects of each case close of the gap, for reports that say how far it\n"
+      "shrinks: REPORTS/NAME/oracle.json, which `score` sets beside what was closed. Opens the sealed "
+      "truth.");
+  command->add_option("folder", options->folder, "Folder of `pendular blind make`")->required();
+  add_run_making(*command, options->making);
+  add_common(*command, options->common, "Folder of `pendular blind diagnose`");
+  command->callback([options] { oracle(*options); });
+}
+
 struct ScoreOptions {
   Common common;
   fs::path folder, reports;
@@ -147,6 +180,7 @@ void add_blind(CLI::App& app) {
   command->require_subcommand(1);
   add_blind_make(*command);
   add_blind_diagnose(*command);
+  add_blind_oracle(*command);
   add_blind_score(*command);
 }
 

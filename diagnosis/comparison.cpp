@@ -27,6 +27,10 @@ constexpr double kApart = 1.0;
 constexpr double kReading =
     0.5;  // of what the other reading of a law does: one standard deviation of two that are alike
 
+double largest_in_bank(const effects::Effect& effect) {
+  return std::max(std::fabs(effect.bank_from), std::fabs(effect.bank_to));
+}
+
 /// Builds a comparison from a design.
 class Learner {
  public:
@@ -62,8 +66,7 @@ class Learner {
       Signature signature = *learnt;
       signature.lowest = std::max(effect.lowest, kBeyondBank * effect.bank_from);
       signature.highest = std::min(effect.highest, kBeyondBank * effect.bank_to);
-      const double largest = std::max(std::fabs(effect.bank_from), std::fabs(effect.bank_to));
-      signature.scale = kScale * largest, signature.least = kLeast * largest;
+      signature.scale = usual_magnitude(effect), signature.least = kLeast * largest_in_bank(effect);
       signature.error = effect.beads ? kErrorOfBeads : kError;
       found_.signatures.push_back(std::move(signature));
     }
@@ -175,6 +178,10 @@ class Learner {
 };
 
 }  // namespace
+
+double usual_magnitude(const effects::Effect& effect) {
+  return kScale * largest_in_bank(effect);
+}
 
 Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);

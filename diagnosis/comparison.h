@@ -6,6 +6,10 @@
 #include "diagnosis/design.h"
 #include "diagnosis/gap.h"
 
+namespace pendular::effects {
+struct Effect;
+}
+
 namespace pendular::diagnosis {
 
 /// Observation and simulation at one level: all vectors in the order of `observed`.
@@ -27,6 +31,10 @@ inline constexpr const char* kFieldError = "stated errors of displacements";
 
 /// Responses, noise and gap as a design shows them. `plan`: of its bank.
 Comparison compare(const Experiment& experiment, const BankPlan& plan, const Design& design);
+
+/// A |θ| of an effect that is usual, at which signatures and separations are told: half the largest of its
+/// bank.
+double usual_magnitude(const effects::Effect& effect);
 
 /// A matrix whose product with its transpose is a covariance.
 Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance);

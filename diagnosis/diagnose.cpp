@@ -6,12 +6,14 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/quantity.h"
 #include "diagnosis/bank_tests.h"
 #include "diagnosis/experiment_places.h"
 #include "diagnosis/leading.h"
 #include "diagnosis/next_experiments.h"
 #include "diagnosis/shrinkage.h"
 #include "diagnosis/verdict.h"
+#include "diagnosis/words.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -81,7 +83,8 @@ void warn_of_input(const Experiment& experiment, Diagnosis& diagnosis) {
   diagnosis.warnings = experiment.warnings;
   for (const auto& [key, sd] : floating_inputs(experiment))
     if (!experiment.uncertainty.contains(key))
-      diagnosis.warnings.push_back(fmt::format("no uncertainty of {} is stated: {:.3g} is assumed", key, sd));
+      diagnosis.warnings.push_back(
+          fmt::format("no uncertainty of {} is stated: {} is assumed", key, quantity(sd, unit_of_key(key))));
   for (const auto& [key, sd] : experiment.uncertainty)
     if (sd == 0.0)
       diagnosis.warnings.push_back(fmt::format("{} is stated without any uncertainty: taken as exact", key));
@@ -107,8 +110,7 @@ Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& 
   if (diagnosis.promise.cases == 0)
     diagnosis.warnings.push_back(
         "the bank is too small to be replayed: how far probabilities, sets and intervals hold is not known, "
-        "and they are "
-        "wider by rule");
+        "and they are wider by rule");
   if (scope.fresh_runs)
     measure_shrinkage({experiment, plan, problem, beads_folder, make_runs}, diagnosis);
   else
@@ -128,6 +130,15 @@ Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& 
   }
   diagnosis.verdict = verdict_of(diagnosis);
   return diagnosis;
+}
+
+Shrinkage closed_by(const Experiment& experiment, const BankPlan& plan, const fs::path& beads_folder,
+                    const MakeRuns& make_runs, const Changes& changes) {
+  Diagnosis books;
+  BankTests bank(make_runs, books.ledger);
+  bank.make("bank", plan);
+  const Problem problem = problem_of(experiment, plan, bank.tests());
+  return shrinkage_by({experiment, plan, problem, beads_folder, make_runs}, changes, books);
 }
 
 }  // namespace pendular::diagnosis

@@ -18,4 +18,9 @@ struct Scope {
 Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& beads_folder,
                    const MakeRuns& make_runs, const Rules& rules = {}, const Scope& scope = {});
 
+/// How far changes that are known to be true close the gap, as the shrinkage of a diagnosis measures it
+/// (shrinkage_by()).
+Shrinkage closed_by(const Experiment& experiment, const BankPlan& plan, const fs::path& beads_folder,
+                    const MakeRuns& make_runs, const Changes& changes);
+
 }  // namespace pendular::diagnosis

@@ -50,6 +50,7 @@ struct Shrinkage {
   double before = 0.0, after = 0.0, fraction = 0.0;
   std::pair<double, double> interval_90 = {0, 0};  ///< of the fraction
   std::vector<std::string> observations;
+  bool nothing_to_close = false;  ///< the gap before is within the noise: fraction and interval are zero
 };
 
 /// An effect that these observations hardly show, and how large it may be (upper_limit()).

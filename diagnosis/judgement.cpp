@@ -7,8 +7,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/quantity.h"
 #include "base/random.h"
 #include "diagnosis/reduced_space.h"
+#include "diagnosis/words.h"
 #include "effects/list.h"
 
 namespace pendular::diagnosis {
@@ -42,7 +44,7 @@ std::string worst_of(const Comparison& landmarks, const Eigen::VectorXd& left) {
   Eigen::Index at = 0;
   const double most = z.cwiseAbs().maxCoeff(&at);
   const Feature& feature = landmarks.observed.features[static_cast<std::size_t>(at)];
-  return fmt::format("{} of {} is {:.1f} sigma off", feature.name, feature.observation, most);
+  return fmt::format("{} is {:.1f} sigma off", in_words(feature), most);
 }
 
 /// Probability of a misfit at least as large by noise alone: that of the multivariate t.
@@ -94,7 +96,8 @@ std::string why_excluded(const Problem& problem, const Hypothesis& h, double mis
                        worst_of(problem.landmarks, problem.landmarks.gap.values));
   }
   const double theta = h.magnitudes.front().mean;
-  return fmt::format("at its best magnitude, {:.3g}, {}", theta,
+  const std::string unit = effects::find_effect(h.id, "diagnosis").unit;
+  return fmt::format("at its best magnitude, {}, {}", quantity(theta, h.magnitudes.front().interval_90, unit),
                      worst_of(problem.landmarks, left_by(problem.landmarks, {{h.id, theta}})));
 }
 

@@ -1,5 +1,6 @@
 #include "diagnosis/shrinkage.h"
 
+#include <fmt/format.h>
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 
 #include "base/random.h"
 #include "diagnosis/specimens.h"
+#include "diagnosis/words.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -22,6 +24,12 @@ Indices all_features(const Comparison& landmarks) {
   Indices all(landmarks.observed.features.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
   return all;
+}
+
+/// 95 % quantile of χ² with so many degrees of freedom (Wilson & Hilferty 1931).
+double largest_of_noise(double features) {
+  const double v = 2.0 / (9.0 * features);
+  return features * std::pow(1.0 - v + 1.645 * std::sqrt(v), 3);
 }
 
 /// √max(0, d²/p − noise): `noise` is what noise alone makes of d²/p.
@@ -172,6 +180,44 @@ std::string wrong_effect_of(const Diagnosis& diagnosis) {
   return "";
 }
 
+std::vector<Eigen::Index> positions(const Indices& features) {
+  return {features.begin(), features.end()};
+}
+
+/// The features on which all that is added is compared: those that can be withheld, in parts; where nothing
+/// can, all.
+struct Compared {
+  std::vector<Indices> parts;
+  Indices features;
+};
+
+Compared compared_features(const RepairShop& shop) {
+  Compared compared{withheld_parts(shop), {}};
+  for (const auto& part : compared.parts)
+    compared.features.insert(compared.features.end(), part.begin(), part.end());
+  if (compared.parts.empty()) compared.features = all_features(shop.problem.landmarks);
+  return compared;
+}
+
+/// `left`: of the gap in the features that are compared.
+Shrinkage shrinkage_on(const RepairShop& shop, const Compared& compared, const Eigen::VectorXd& left) {
+  const Comparison& landmarks = shop.problem.landmarks;
+  Shrinkage found = shrinkage_of(part_of(landmarks.gap, compared.features), left);
+  for (const std::size_t index : observations_of(landmarks, compared.features))
+    found.observations.push_back(shop.experiment.observations[index].name);
+  return found;
+}
+
+/// Of two magnitudes of one effect, on the same features, that of all observations should close no less.
+void warn_of_contradiction(Diagnosis& diagnosis) {
+  const Shrinkage &fitted = diagnosis.fitted, &withheld = diagnosis.withheld;
+  if (withheld.fraction <= fitted.interval_90.second) return;
+  diagnosis.warnings.push_back(fmt::format(
+      "with the magnitude that all observations ask for the cause closes less of the gap, {}, than with "
+      "those that parts of them ask for, {}: the observations contradict each other about it",
+      in_words(fitted), in_words(withheld)));
+}
+
 }  // namespace
 
 Shrinkage shrinkage_of(const Gap& before, const Eigen::VectorXd& after) {
@@ -180,9 +226,11 @@ Shrinkage shrinkage_of(const Gap& before, const Eigen::VectorXd& after) {
   Shrinkage found;
   found.before = excess_of(factor, before.values, 1.0);
   found.after = excess_of(factor, after, 1.0);
+  found.nothing_to_close = before.values.dot(factor.solve(before.values)) <=
+                           largest_of_noise(static_cast<double>(before.values.size()));
+  if (found.nothing_to_close) return found;
   const auto fraction = [](double was, double is) { return was > 0.0 ? 1.0 - is / was : 0.0; };
   found.fraction = fraction(found.before, found.after);
-  if (found.before <= 0.0) return found;
   std::vector<double> drawn;
   const Eigen::MatrixXd lower = factor.matrixL();
   for (std::uint64_t draw = 0; draw < kDraws; ++draw) {
@@ -196,6 +244,13 @@ Shrinkage shrinkage_of(const Gap& before, const Eigen::VectorXd& after) {
   std::sort(drawn.begin(), drawn.end());
   found.interval_90 = {drawn[kDraws / 20], drawn[kDraws - 1 - kDraws / 20]};
   return found;
+}
+
+Shrinkage shrinkage_by(const RepairShop& shop, const Changes& changes, Diagnosis& diagnosis) {
+  const Compared compared = compared_features(shop);
+  const Eigen::VectorXd left =
+      Bench(shop, diagnosis).gap_with(changes, "true effect", compared.features, false);
+  return shrinkage_on(shop, compared, left(positions(compared.features)));
 }
 
 void measure_shrinkage(const RepairShop& shop, Diagnosis& diagnosis) {
@@ -215,27 +270,22 @@ void measure_shrinkage(const RepairShop& shop, Diagnosis& diagnosis) {
                  }};
   };
   const Model best = effect_model("repaired", ids);
-  diagnosis.fitted = shrinkage_of(landmarks.gap, bench.gap_with(best.fit(all), best.name, all, true));
-  for (const auto& observation : shop.experiment.observations)
-    diagnosis.fitted.observations.push_back(observation.name);
-
-  const auto parts = withheld_parts(shop);
-  Indices withheld;
-  for (const auto& part : parts) withheld.insert(withheld.end(), part.begin(), part.end());
-  if (withheld.empty()) return;
-  const Gap gap = part_of(landmarks.gap, withheld);
-  diagnosis.withheld = shrinkage_of(gap, bench.withheld_gap(best, parts, withheld));
-  std::set<std::size_t> names;
-  for (const std::size_t f : withheld) names.insert(landmarks.observed.observation[f]);
-  for (const std::size_t index : names)
-    diagnosis.withheld.observations.push_back(shop.experiment.observations[index].name);
-  const Model retuned{"modulus retuned",
-                      [&](const Indices& features) { return retuned_modulus(shop, features); }};
-  diagnosis.retuned = shrinkage_of(gap, bench.withheld_gap(retuned, parts, withheld)).fraction;
+  const Compared compared = compared_features(shop);
+  const Eigen::VectorXd left = bench.gap_with(best.fit(all), best.name, all, true);
+  diagnosis.fitted = shrinkage_on(shop, compared, left(positions(compared.features)));
+  if (compared.parts.empty()) return;
+  const auto withheld = [&](const Model& model) {
+    return shrinkage_on(shop, compared, bench.withheld_gap(model, compared.parts, compared.features));
+  };
+  diagnosis.withheld = withheld(best);
+  if (diagnosis.withheld.nothing_to_close) return;
+  warn_of_contradiction(diagnosis);
+  diagnosis.retuned =
+      withheld({"modulus retuned", [&](const Indices& features) { return retuned_modulus(shop, features); }})
+          .fraction;
   diagnosis.wrong_effect = wrong_effect_of(diagnosis);
-  if (diagnosis.wrong_effect.empty()) return;
-  const Model wrong = effect_model("wrong effect", {diagnosis.wrong_effect});
-  diagnosis.wrong = shrinkage_of(gap, bench.withheld_gap(wrong, parts, withheld)).fraction;
+  if (!diagnosis.wrong_effect.empty())
+    diagnosis.wrong = withheld(effect_model("wrong effect", {diagnosis.wrong_effect})).fraction;
 }
 
 }  // namespace pendular::diagnosis

@@ -16,13 +16,19 @@ struct RepairShop {
 
 /// How far the best explanation closes the gap, and how far two controls do: the polymer's modulus retuned
 /// freely, and the most probable effect outside the ambiguity set. Magnitudes are fitted by the emulator; the
-/// figures are from fresh runs, on members that the bank does not have. `fitted`: all observations, with the
-/// magnitude that all of them give. `withheld`: each test in turn (where there is one test only, each of its
-/// observations) with the magnitude that the others give. Fills shrinkage, controls, overlays and ledger.
-/// Nothing is run where the explanation is `none` or `unknown`: the gap stays as it is.
+/// figures are from fresh runs, on members that the bank does not have. Both figures are of the same
+/// features, those that can be withheld: each test in turn, or where there is one test only each of its
+/// observations; of all where there is one observation. `fitted`: with the magnitude that all observations
+/// give. `withheld`: with the magnitude that the others give. Fills shrinkage, controls, overlays, warnings
+/// and ledger. Nothing is run where the explanation is `none` or `unknown`: the gap stays as it is.
 void measure_shrinkage(const RepairShop& shop, Diagnosis& diagnosis);
 
-/// Fraction of a gap that is gone, with the interval that the features' noise leaves (seeded draws).
+/// What changes that are known to be true close on the same features. Books its runs in the ledger.
+Shrinkage shrinkage_by(const RepairShop& shop, const Changes& changes, Diagnosis& diagnosis);
+
+/// Fraction of a gap that is gone, with the interval that the features' noise leaves (seeded draws). There is
+/// nothing to close where noise alone leaves a gap as large with a probability of 5 % and more: a fraction of
+/// that would be one of the noise.
 Shrinkage shrinkage_of(const Gap& before, const Eigen::VectorXd& after);
 
 }  // namespace pendular::diagnosis

@@ -6,34 +6,75 @@
 #include <cmath>
 #include <map>
 
+#include "base/quantity.h"
+#include "diagnosis/words.h"
+
 namespace pendular::diagnosis {
 namespace {
 
-std::string joined(const std::vector<std::string>& words, const char* last) {
-  std::string text;
-  for (std::size_t k = 0; k < words.size(); ++k)
-    text += (k == 0 ? "" : k + 1 == words.size() ? last : ", ") + words[k];
-  return text;
+constexpr double kLikely = 0.5;     // probability from which a cause is named
+constexpr std::size_t kListed = 3;  // names in a row; the report has all
+
+/// The members of the set beside the most probable one.
+std::vector<std::string> others(const Diagnosis& diagnosis) {
+  std::vector<std::string> names;
+  for (const auto& id : diagnosis.ambiguity_set)
+    if (id != diagnosis.explanations.front().id) names.push_back(name_and_id(id));
+  return names;
 }
 
-std::string feature_of(const GapRow& row) {
-  const auto& feature = row.observed;
-  return feature.name == feature.observation ? feature.name
-                                             : fmt::format("{} of {}", feature.name, feature.observation);
+std::string cause(const Diagnosis& diagnosis) {
+  const Explanation& best = diagnosis.explanations.front();
+  const auto rest = others(diagnosis);
+  const std::string probability = percent(best.probability);
+  if (best.id == "none") {
+    if (rest.empty())
+      return fmt::format("Experiment and simulation agree: no effect is needed, probability {}.",
+                         probability);
+    return fmt::format("No effect is needed, probability {}; not excluded: {}.", probability,
+                       joined(rest, kListed));
+  }
+  if (best.id == "unknown")
+    return fmt::format("The cause is not known: no effect of the library explains the gap, probability {}{}.",
+                       probability, rest.empty() ? "" : "; not excluded: " + joined(rest, kListed));
+  if (rest.empty()) return fmt::format("The cause is {}, probability {}.", in_words(best), probability);
+  if (best.probability >= kLikely)
+    return fmt::format("The most probable cause is {}, probability {}; not excluded: {}.", in_words(best),
+                       probability, joined(rest, kListed));
+  return fmt::format(
+      "The cause is not known: {} explanations, {} together, cannot be told apart; the most probable is {}, "
+      "{}; the others are {}.",
+      rest.size() + 1, percent(diagnosis.set_probability), in_words(best), probability,
+      joined(rest, kListed));
 }
 
-/// "1.9 times too stiff" for a modulus, else in the feature's own words.
-std::string in_words(const GapRow& row) {
-  const auto& feature = row.observed;
+/// One sentence: what, why, and what is expected of it.
+std::string what_next(const Diagnosis& diagnosis) {
+  const auto& next = diagnosis.next;
+  if (!next.experiments.empty() && next.experiments.front().outlook.cases > 0) {
+    const auto& first = next.experiments.front();
+    return fmt::format(" Next: {} – {}; it is expected to leave {:.1f} explanations of {:.1f}.",
+                       first.observation, first.why, first.outlook.set_size, next.now.set_size);
+  }
+  if (diagnosis.ambiguity_set.size() < 2 && diagnosis.explanations.front().id != "unknown")
+    return " No further measurement is needed.";
+  return next.now.cases == 0 || !next.experiments.empty()
+             ? " What to measure next cannot be told from these runs."
+             : " No measurement that is known here would tell more.";
+}
+
+/// "the simulation is 1.9 times too stiff in the …" for a modulus, else in the feature's own words.
+std::string difference_of(const GapRow& row) {
+  const Feature& feature = row.observed;
   if (!feature.logarithm)
-    return fmt::format("{} is {:.3g} in the simulation and {:.3g} in the experiment", feature_of(row),
-                       row.simulated, feature.value);
-  const double ratio = std::exp(std::fabs(row.difference));
+    return fmt::format("{} is {} in the simulation and {} in the experiment", in_words(feature),
+                       quantity(row.simulated, unit_of(feature)), quantity(feature.value, unit_of(feature)));
+  const std::string ratio = rounded(std::exp(std::fabs(row.difference)));
   const bool larger = row.difference > 0.0;
   if (feature.name.find("modulus") != std::string::npos)
-    return fmt::format("the simulation is {:.2f} times too {} in {}", ratio, larger ? "stiff" : "soft",
-                       feature_of(row));
-  return fmt::format("{} is {:.2f} times too {} in the simulation", feature_of(row), ratio,
+    return fmt::format("the simulation is {} times too {} in the {}", ratio, larger ? "stiff" : "soft",
+                       in_words(feature));
+  return fmt::format("{} is {} times too {} in the simulation", in_words(feature), ratio,
                      larger ? "large" : "small");
 }
 
@@ -42,10 +83,8 @@ std::string where(const Diagnosis& diagnosis) {
   const auto count =
       std::count_if(rows.begin(), rows.end(), [](const GapRow& row) { return row.significant; });
   if (count == 0)
-    return fmt::format(
-        "No feature of {} differs between experiment and simulation by more than the noise (all |z| below "
-        "{:.1f}; the noise of a feature is {:.0f} % at the median).",
-        rows.size(), diagnosis.gap.threshold, 100.0 * diagnosis.gap.noise_floor);
+    return fmt::format("None of {} features differs by more than the noise (all |z| below {:.1f}).",
+                       rows.size(), diagnosis.gap.threshold);
   const auto worst = std::max_element(rows.begin(), rows.end(), [](const GapRow& a, const GapRow& b) {
     return std::fabs(a.z) < std::fabs(b.z);
   });
@@ -53,98 +92,53 @@ std::string where(const Diagnosis& diagnosis) {
   for (const auto& row : rows) shares[row.observed.observation] += row.share;
   const auto most = std::max_element(shares.begin(), shares.end(),
                                      [](const auto& a, const auto& b) { return a.second < b.second; });
-  std::string text = in_words(*worst);
-  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-  text += fmt::format(" ({:.1f} sigma; noise floor {:.0f} %). {} of {} features differ significantly",
-                      std::fabs(worst->z), 100.0 * diagnosis.gap.noise_floor, count, rows.size());
-  return text + fmt::format("; {:.0f} % of the gap is in {}.", 100.0 * most->second, most->first);
-}
-
-std::string magnitude_of(const Explanation& e) {
-  std::string text;
-  for (std::size_t k = 0; k < e.magnitudes.size(); ++k) {
-    const auto& m = e.magnitudes[k];
-    text += fmt::format("{}{:.3g} {} ({:.3g} to {:.3g})", k > 0 ? " and " : "", m.mean, e.units[k],
-                        m.interval_90.first, m.interval_90.second);
-  }
-  return text;
-}
-
-std::string which(const Diagnosis& diagnosis) {
-  const Explanation& best = diagnosis.explanations.front();
-  const auto& set = diagnosis.ambiguity_set;
-  if (best.id == "none")
-    return fmt::format("Nothing needs to be explained (probability {:.2f}).", best.probability);
-  if (best.id == "unknown")
-    return fmt::format(
-        "No effect of the library explains it (probability {:.2f} for something else); what is missing in "
-        "the "
-        "simulation is of another kind, or a believed input is farther off than stated.",
-        best.probability);
-  if (set.size() == 2 && set.back() == "unknown")
-    return fmt::format(
-        "It is explained by {} at {}, probability {:.2f}; something that is not in the library and acts "
-        "alike "
-        "cannot be ruled out.",
-        best.id, magnitude_of(best), best.probability);
-  if (set.size() > 1)
-    return fmt::format(
-        "{}, {:.2f} together, cannot be told apart here; the most probable, {} at {}, has {:.2f}.",
-        joined(set, " and "), diagnosis.set_probability, best.id, magnitude_of(best), best.probability);
-  return fmt::format("It is explained by {} at {}, probability {:.2f}.", best.id, magnitude_of(best),
-                     best.probability);
-}
-
-std::string promise(const Diagnosis& diagnosis) {
-  const auto& p = diagnosis.promise;
-  if (p.cases == 0) return "";
-  std::string text =
-      fmt::format(" Of {} replayed runs the set held the truth in {:.0f} % at a mean size of {:.1f}.",
-                  p.cases, 100.0 * p.in_set, p.set_size);
-  std::vector<std::string> hidden;
-  for (const auto& one : diagnosis.unseen)
-    hidden.push_back(fmt::format("{} up to {:.2g} {}", one.effect, one.limit, one.unit));
-  if (!hidden.empty())
-    text += fmt::format(" These observations would hardly show {}.", joined(hidden, " and "));
+  std::string text = fmt::format("{} of {} features differ; the farthest: {} ({:.1f} sigma).", count,
+                                 rows.size(), difference_of(*worst), std::fabs(worst->z));
+  if (shares.size() > 1) text += fmt::format(" {} of the gap is in {}.", percent(most->second), most->first);
   return text;
 }
 
 std::string how_far(const Diagnosis& diagnosis) {
-  if (diagnosis.explanations.front().magnitudes.empty() || diagnosis.fitted.before <= 0.0) return "";
-  const auto& withheld = diagnosis.withheld;
-  std::string text = fmt::format(" Added to the simulation it closes {:.0f} % of the gap",
-                                 100.0 * diagnosis.fitted.fraction);
+  const Shrinkage &fitted = diagnosis.fitted, &withheld = diagnosis.withheld;
+  if (diagnosis.explanations.front().magnitudes.empty() || fitted.observations.empty()) return "";
+  if (fitted.nothing_to_close)
+    return " The gap of these features together is within the noise: nothing to close.";
+  std::string text = " Added to the simulation, the cause closes ";
   if (withheld.observations.empty())
-    return text + "; with one observation nothing could be withheld to check that.";
+    return text + in_words(fitted) +
+           " of the gap that it was fitted to; one observation leaves nothing to withhold.";
   text += fmt::format(
-      " on the data it was fitted to and {:.0f} % ({:.0f} to {:.0f} %) on withheld data; retuning the "
-      "polymer's "
-      "modulus closes {:.0f} %",
-      100.0 * withheld.fraction, 100.0 * withheld.interval_90.first, 100.0 * withheld.interval_90.second,
-      100.0 * diagnosis.retuned);
+      "{} of the gap withheld and {} of the gap fitted; a retuned modulus of the polymer closes {}",
+      in_words(withheld), in_words(fitted), percent(diagnosis.retuned));
   if (!diagnosis.wrong_effect.empty())
-    text += fmt::format(", a wrong effect ({}) {:.0f} %", diagnosis.wrong_effect, 100.0 * diagnosis.wrong);
+    text +=
+        fmt::format(", a wrong effect ({}) {}", plain_name(diagnosis.wrong_effect), percent(diagnosis.wrong));
   return text + ".";
 }
 
-std::string what_next(const Diagnosis& diagnosis) {
-  const auto& next = diagnosis.next;
-  if (next.experiments.empty() || next.experiments.front().outlook.cases == 0) return "";
-  const auto& first = next.experiments.front();
-  return fmt::format(" Next: {} ({}); expected to leave {:.1f} explanations of {:.1f}.", first.observation,
-                     first.why, first.outlook.set_size, next.now.set_size);
+std::string trust(const Diagnosis& diagnosis) {
+  std::string text;
+  const auto& p = diagnosis.promise;
+  if (p.cases > 0)
+    text += fmt::format("Of {} replayed runs {} had their truth in the set, of {:.1f} members at the mean.",
+                        p.cases, percent(p.in_set), p.set_size);
+  std::vector<std::string> hidden;
+  for (const auto& one : diagnosis.unseen)
+    hidden.push_back(fmt::format("{} up to {}", plain_name(one.effect), quantity(one.limit, one.unit)));
+  if (!hidden.empty())
+    text += fmt::format(" These observations would hardly show {}.", joined(hidden, kListed));
+  for (const auto& place : diagnosis.places) text += " " + place.words;
+  const auto failed = std::count_if(diagnosis.ledger.begin(), diagnosis.ledger.end(),
+                                    [](const LedgerRow& row) { return row.status == "failed"; });
+  if (failed > 0) text += fmt::format(" {} of {} simulations failed.", failed, diagnosis.ledger.size());
+  return text.starts_with(' ') ? text.substr(1) : text;
 }
 
 }  // namespace
 
 std::string verdict_of(const Diagnosis& diagnosis) {
-  std::string text = where(diagnosis) + " " + which(diagnosis) + promise(diagnosis) + how_far(diagnosis) +
-                     what_next(diagnosis);
-  for (const auto& place : diagnosis.places) text += " " + place.words;
-  const auto failed = std::count_if(diagnosis.ledger.begin(), diagnosis.ledger.end(),
-                                    [](const LedgerRow& row) { return row.status == "failed"; });
-  if (failed > 0) text += fmt::format(" {} of {} simulations failed.", failed, diagnosis.ledger.size());
-  if (!diagnosis.warnings.empty()) text += fmt::format(" Mind {} warning(s).", diagnosis.warnings.size());
+  std::string text = cause(diagnosis) + what_next(diagnosis) + "\n" + where(diagnosis) + how_far(diagnosis);
+  if (const std::string last = trust(diagnosis); !last.empty()) text += "\n" + last;
   return text;
 }
 

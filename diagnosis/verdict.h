@@ -4,8 +4,8 @@
 
 namespace pendular::diagnosis {
 
-/// The diagnosis in a paragraph that can be acted on: how large the gap is and where, what explains it and
-/// what cannot be told apart, how far it shrinks beside the controls, and what to do next.
+/// The diagnosis in three short paragraphs, a line each: what causes the gap, or that this is not known, and
+/// what to do next and why; where the gap is and how far it shrinks; how far to trust that.
 std::string verdict_of(const Diagnosis& diagnosis);
 
 }  // namespace pendular::diagnosis

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/quantity.h"
+#include "diagnosis/words.h"
 #include "diagnosis_report/explanations.h"
 #include "diagnosis_report/tables.h"
 #include "viz/matrix_plot.h"
@@ -25,6 +27,12 @@ std::vector<bool> suspects(const Diagnosis& d) {
   std::vector<bool> marked;
   for (const std::string& effect : d.effects) marked.push_back(is_suspect(d, effect));
   return marked;
+}
+
+std::vector<std::string> effect_names(const Diagnosis& d) {
+  std::vector<std::string> names;
+  for (const std::string& effect : d.effects) names.push_back(diagnosis::plain_name(effect));
+  return names;
 }
 
 std::vector<std::string> feature_labels(const Diagnosis& d) {
@@ -48,15 +56,15 @@ std::vector<double> row_by_row(const Eigen::MatrixXd& matrix) {
   return values;
 }
 
-/// `columns`: of the matrix, by their whole names.
-Table matrix_table(const std::string& name, const viz::Matrix& matrix,
+/// `values`: row by row, a row for each effect.
+Table matrix_table(const std::string& name, const std::vector<std::string>& effects,
                    const std::vector<std::string>& columns, const std::vector<double>& values) {
   Table table{name, {"effect"}, {}};
   table.columns.insert(table.columns.end(), columns.begin(), columns.end());
-  for (std::size_t row = 0; row < matrix.rows.size(); ++row) {
-    table.rows.push_back({matrix.rows[row]});
-    for (std::size_t k = 0; k < matrix.columns.size(); ++k)
-      table.rows.back().emplace_back(values[row * matrix.columns.size() + k]);
+  for (std::size_t row = 0; row < effects.size(); ++row) {
+    table.rows.push_back({effects[row]});
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      table.rows.back().emplace_back(values[row * columns.size() + k]);
   }
   return table;
 }
@@ -94,11 +102,15 @@ Drawn magnitude_figure(const viz::Display& display, const Diagnosis& d, const st
   series.look = RowSeries::Look::points;
   Table table{"magnitude_" + effect, {"observation", "magnitude", "low_90", "high_90", "unit"}, {}};
   const std::string unit = unit_of(d, effect);
+  const SpeltUnit drawn = spelt_unit(unit, 1.0);
+  const auto in_drawn = [&](const std::pair<double, double>& ends) {
+    return std::pair(drawn.factor * ends.first, drawn.factor * ends.second);
+  };
   const auto add = [&](const std::string& name, const diagnosis::Magnitude& m, bool together) {
     plot.labels.push_back(name);
     plot.marked.push_back(together);
-    series.values.push_back(m.mean);
-    series.intervals.push_back(m.interval_90);
+    series.values.push_back(drawn.factor * m.mean);
+    series.intervals.push_back(in_drawn(m.interval_90));
     table.rows.push_back({name, m.mean, m.interval_90.first, m.interval_90.second, unit});
   };
   for (const auto& group : d.groups)
@@ -106,13 +118,16 @@ Drawn magnitude_figure(const viz::Display& display, const Diagnosis& d, const st
   const auto together = joint(d, effect);
   add("all together", together, true);
   std::vector<double> guides;
-  if (std::isfinite(together.mean)) guides = {together.interval_90.first, together.interval_90.second};
-  plot.panels = {{fmt::format("{} ({})", effect, unit), {series}, guides}};
+  if (const auto [low, high] = in_drawn(together.interval_90); std::isfinite(together.mean))
+    guides = {low, high};
+  const std::string name = diagnosis::plain_name(effect);
+  const std::string in = drawn.after.starts_with(' ') ? drawn.after.substr(1) : drawn.after;
+  plot.panels = {{in.empty() ? name : fmt::format("{} ({})", name, in), {series}, guides}};
   return {viz::draw_rows(display, plot),
-          fmt::format("Magnitude of {} that each observation asks for by itself, with 90 % intervals, and "
-                      "all together (dashed). An effect that is the cause is asked for alike by all; one "
-                      "that only makes up for another is not.",
-                      effect),
+          fmt::format(
+              "{}: the magnitude that each observation asks for by itself, with 90 % intervals, and all "
+              "together (dashed). A cause is asked for alike by all; what only makes up for another is not.",
+              diagnosis::name_and_id(effect)),
           table};
 }
 
@@ -131,7 +146,8 @@ std::optional<Drawn> hypothesis_figure(const viz::Display& display, const Diagno
     notes.push_back(probability_label(p));
   };
   for (const auto& e : shown.explanations)
-    add(e.excluded ? e.id + " (excluded)" : e.id, e.probability, in_ambiguity_set(d, e.id));
+    add(diagnosis::plain_name(e.id) + (e.excluded ? " (excluded)" : ""), e.probability,
+        in_ambiguity_set(d, e.id));
   if (shown.other_pairs > 0)
     add(fmt::format("{} other pairs together", shown.other_pairs), shown.other_probability, false);
   plot.panels = {{"probability", {probability}, {}, notes}};
@@ -144,7 +160,7 @@ std::optional<Drawn> hypothesis_figure(const viz::Display& display, const Diagno
 std::optional<Drawn> signature_figure(const viz::Display& display, const Diagnosis& d) {
   if (d.signatures.size() == 0) return {};
   viz::Matrix map;
-  map.rows = d.effects, map.columns = feature_labels(d);
+  map.rows = effect_names(d), map.columns = feature_labels(d);
   map.values = row_by_row(d.signatures);
   map.marked_rows = suspects(d);
   map.quantity = std::string("change/noise");
@@ -155,13 +171,13 @@ std::optional<Drawn> signature_figure(const viz::Display& display, const Diagnos
                   "simulation, over the feature's noise; colours end at {:g}. Bold: the effects that "
                   "cannot be told apart with these observations.",
                   kLargestShown),
-      matrix_table("signatures", map, feature_names(d), map.values)};
+      matrix_table("signatures", d.effects, feature_names(d), map.values)};
 }
 
 std::optional<Drawn> separation_figure(const viz::Display& display, const Diagnosis& d) {
   if (d.separation.size() == 0) return {};
   viz::Matrix map;
-  map.rows = d.effects, map.columns = d.effects;
+  map.rows = effect_names(d), map.columns = d.effects;
   map.columns.push_back("no effect");
   const auto squared = row_by_row(d.separation);
   for (std::size_t k = 0; k < squared.size(); ++k) {
@@ -180,7 +196,7 @@ std::optional<Drawn> separation_figure(const viz::Display& display, const Diagno
                   "colours end at {:g}. Framed: below three, not to be told apart here, or in the last "
                   "column not to be seen. The table has the squares.",
                   kLargestShown),
-      matrix_table("separation", map, map.columns, squared)};
+      matrix_table("separation", d.effects, map.columns, squared)};
 }
 
 std::vector<Drawn> magnitude_figures(const viz::Display& display, const Diagnosis& d) {
@@ -220,7 +236,7 @@ std::optional<Drawn> goodness_figure(const viz::Display& display, const Diagnosi
   Table table{"goodness", {"id", "misfit"}, {}};
   for (const auto& e : shown.explanations) {
     if (e.id == "unknown" || !(e.misfit > 0.0)) continue;  // zero: it was not simulated
-    plot.labels.push_back(e.id);
+    plot.labels.push_back(diagnosis::plain_name(e.id));
     plot.marked.push_back(in_ambiguity_set(d, e.id));
     misfit.values.push_back(e.misfit);
     table.rows.push_back({e.id, e.misfit});

@@ -34,7 +34,9 @@ bool is_suspect(const diagnosis::Diagnosis& diagnosis, const std::string& effect
 }
 
 std::string feature_label(const diagnosis::Feature& feature) {
-  return fmt::format("{}: {}", viz::shortened(feature.observation, kLongestName), feature.name);
+  std::string name = feature.name;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return fmt::format("{}: {}", viz::shortened(feature.observation, kLongestName), name);
 }
 
 Shown shown_of(const diagnosis::Diagnosis& diagnosis) {

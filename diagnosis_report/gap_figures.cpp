@@ -82,6 +82,8 @@ Drawn map_figure(const viz::Display& display, const Diagnosis& d) {
     if (std::isfinite(row.z)) largest = std::max(largest, std::fabs(row.z));
   }
   map.limit = std::clamp(largest, 3.0, kLargestShown);
+  const Table table = map_table(map);
+  for (std::string& name : map.columns) std::replace(name.begin(), name.end(), '_', ' ');
   return {
       viz::draw_matrix(display, map),
       fmt::format("Where simulation and experiment part: z of each feature, simulated less observed over "
@@ -89,7 +91,7 @@ Drawn map_figure(const viz::Display& display, const Diagnosis& d) {
                   "too low, framed where significant with all features taken together (|z| above {:.1f}). "
                   "Features in the order of the strain they are read from, those without strain last.",
                   d.gap.threshold),
-      map_table(map)};
+      table};
 }
 
 std::string label_of(const Feature& feature) {

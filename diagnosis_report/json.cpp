@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/words.h"
+
 namespace pendular::diagnosis_report {
 namespace {
 
@@ -52,6 +54,9 @@ ordered_json to_json(const diagnosis::Explanation& explanation) {
   }
   const bool any = !magnitudes.empty();
   return {{"id", explanation.id},
+          {"name", diagnosis::plain_name(explanation.id)},
+          {"sentence", diagnosis::sentence_of(explanation.id)},
+          {"in_words", diagnosis::in_words(explanation)},
           {"probability", number(explanation.probability)},
           {"magnitude", any ? magnitudes[0] : ordered_json(nullptr)},
           {"interval_90", any ? intervals[0] : ordered_json::array({nullptr, nullptr})},
@@ -70,19 +75,20 @@ ordered_json hypotheses_of(const Diagnosis& d) {
   return all;
 }
 
-/// Null for what no run was made for.
+/// Null for what no run was made for, and for the share of what is within the noise.
 ordered_json to_json(const diagnosis::Shrinkage& s) {
-  const bool made = !s.observations.empty();
+  const bool made = !s.observations.empty(), closes = made && !s.nothing_to_close;
   const ordered_json unknown = nullptr;
   return {{"before", made ? number(s.before) : unknown},
           {"after", made ? number(s.after) : unknown},
-          {"fraction", made ? number(s.fraction) : unknown},
-          {"interval_90", made ? range(s.interval_90) : ordered_json::array({nullptr, nullptr})},
+          {"fraction", closes ? number(s.fraction) : unknown},
+          {"interval_90", closes ? range(s.interval_90) : ordered_json::array({nullptr, nullptr})},
+          {"nothing_to_close", s.nothing_to_close},
           {"observations", s.observations}};
 }
 
 ordered_json shrinkage_of(const Diagnosis& d) {
-  const bool made = !d.withheld.observations.empty();
+  const bool made = !d.withheld.observations.empty() && !d.withheld.nothing_to_close;
   const ordered_json unknown = nullptr;
   return {{"fitted", to_json(d.fitted)},
           {"withheld", to_json(d.withheld)},
@@ -147,8 +153,10 @@ ordered_json promise_of(const Diagnosis& d) {
     reliability.push_back(
         {{"said", number(bin.said)}, {"came_true", number(bin.came_true)}, {"cases", bin.cases}});
   for (const auto& [id, effect] : p.effects)
-    effects[id] = {
-        {"cases", effect.cases}, {"told_from_none", effect.told_from_none}, {"first", effect.first}};
+    effects[id] = {{"cases", effect.cases},
+                   {"told_from_none", effect.told_from_none},
+                   {"first", effect.first},
+                   {"in_set", effect.in_set}};
   return {{"cases", p.cases},
           {"confidence", number(p.confidence)},
           {"in_set", replayed(p.in_set)},
@@ -164,7 +172,10 @@ ordered_json promise_of(const Diagnosis& d) {
 ordered_json unseen_of(const Diagnosis& d) {
   ordered_json all = ordered_json::array();
   for (const auto& one : d.unseen)
-    all.push_back({{"effect", one.effect}, {"limit_95", number(one.limit)}, {"unit", one.unit}});
+    all.push_back({{"effect", one.effect},
+                   {"name", diagnosis::plain_name(one.effect)},
+                   {"limit_95", number(one.limit)},
+                   {"unit", one.unit}});
   return all;
 }
 

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "diagnosis/words.h"
 #include "diagnosis_report/tables.h"
 #include "viz/row_plot.h"
 
@@ -34,9 +35,11 @@ std::vector<Row> rows_of(const Diagnosis& d) {
   if (!d.fitted.observations.empty()) rows.push_back({"fitted", d.fitted});
   if (d.withheld.observations.empty()) return rows;
   rows.push_back({"withheld", d.withheld});
+  if (d.withheld.nothing_to_close) return rows;
   rows.push_back({"control: only the polymer's modulus retuned", control(d.withheld, d.retuned)});
   if (!d.wrong_effect.empty())
-    rows.push_back({"control: a wrong effect, " + d.wrong_effect, control(d.withheld, d.wrong)});
+    rows.push_back(
+        {"control: a wrong effect, " + diagnosis::plain_name(d.wrong_effect), control(d.withheld, d.wrong)});
   return rows;
 }
 
@@ -54,7 +57,7 @@ std::optional<Drawn> shrinkage_figure(const viz::Display& display, const Diagnos
     plot.marked.push_back(name == "withheld");
     before.values.push_back(s.before);
     after.values.push_back(s.after);
-    closed.values.push_back(100.0 * s.fraction);
+    closed.values.push_back(s.nothing_to_close ? kNone : 100.0 * s.fraction);
     closed.intervals.emplace_back(100.0 * s.interval_90.first, 100.0 * s.interval_90.second);
     table.rows.push_back({name, s.before, s.after, s.fraction, s.interval_90.first, s.interval_90.second,
                           fmt::format("{}", fmt::join(s.observations, "; "))});

@@ -4,8 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "base/quantity.h"
+#include "diagnosis/words.h"
 #include "diagnosis_report/explanations.h"
 #include "diagnosis_report/tables.h"
 
@@ -13,7 +14,6 @@ namespace pendular::diagnosis_report {
 namespace {
 
 using diagnosis::Diagnosis;
-using diagnosis::Shrinkage;
 
 constexpr std::size_t kLongestLedger = 400;  // rows of the ledger in the page
 
@@ -22,44 +22,23 @@ std::size_t not_made(const Diagnosis& d) {
       std::count_if(d.ledger.begin(), d.ledger.end(), [](const auto& row) { return row.status != "done"; }));
 }
 
-std::string percent_range(const std::pair<double, double>& range) {
-  if (!std::isfinite(range.first) || !std::isfinite(range.second)) return "";
-  return fmt::format(" ({:.0f} to {:.0f})", 100.0 * range.first, 100.0 * range.second);
-}
-
-void add_shrinkage(std::vector<viz::ReportRow>& rows, const std::string& what, const Shrinkage& s) {
-  if (s.observations.empty()) return;
-  rows.push_back({"Gap closed, " + what + " (90 % interval)",
-                  fmt::format("{:.0f}{}", 100.0 * s.fraction, percent_range(s.interval_90)), "%"});
-}
-
-/// The short list after the verdict.
+/// The short list after the verdict; what it says already is not repeated.
 std::vector<viz::ReportRow> figures_of(const Diagnosis& d) {
   std::vector<viz::ReportRow> rows;
+  for (const auto& id : d.ambiguity_set)
+    for (const auto& e : d.explanations)
+      if (e.id == id)
+        rows.push_back({"Possible cause: " + diagnosis::in_words(e), percent(e.probability), ""});
+  if (d.ambiguity_set.size() > 1) rows.push_back({"These together", percent(d.set_probability), ""});
   const auto significant =
       std::count_if(d.gap.rows.begin(), d.gap.rows.end(), [](const auto& row) { return row.significant; });
   rows.push_back(
       {"Features that differ significantly", fmt::format("{} of {}", significant, d.gap.rows.size()), ""});
-  rows.push_back({"Gap beyond noise", rounded(d.gap.excess), "noise"});
-  rows.push_back({"Noise floor of what is compared by ratio", rounded(100.0 * d.gap.noise_floor), "%"});
-  if (!d.explanations.empty())
-    rows.push_back(
-        {"Most probable: " + d.explanations.front().id, per_cent(d.explanations.front().probability), "%"});
-  if (d.ambiguity_set.size() > 1)
-    rows.push_back({fmt::format("Not to be told apart: {}", fmt::join(d.ambiguity_set, ", ")),
-                    per_cent(d.set_probability), "%"});
-  for (const auto& e : d.explanations)
-    if (e.id == "unknown") rows.push_back({"Something else (unknown)", per_cent(e.probability), "%"});
-  rows.push_back({"Probability that noise alone leaves such a misfit", rounded(d.goodness), ""});
-  add_shrinkage(rows, "fitted observations", d.fitted);
-  add_shrinkage(rows, "withheld observations", d.withheld);
-  if (!d.withheld.observations.empty()) {
-    rows.push_back({"Control: only the polymer's modulus retuned", per_cent(d.retuned), "%"});
-    if (!d.wrong_effect.empty())
-      rows.push_back({"Control: a wrong effect, " + d.wrong_effect, per_cent(d.wrong), "%"});
-  }
+  rows.push_back({"Gap beyond the noise, over the noise", rounded(d.gap.excess), ""});
+  rows.push_back({"Noise of what is compared by ratio, median", percent(d.gap.noise_floor), ""});
+  rows.push_back({"Noise alone leaves such a misfit with probability", percent(d.goodness), ""});
   rows.push_back({"Simulated tests", std::to_string(d.ledger.size()), ""});
-  rows.push_back({"of which failed or not made", std::to_string(not_made(d)), ""});
+  if (not_made(d) > 0) rows.push_back({"of which failed or not made", std::to_string(not_made(d)), ""});
   return rows;
 }
 
@@ -72,15 +51,19 @@ viz::ReportSection where_section(const Diagnosis& d, const Pictures& pictures) {
   auto out = section("Where the gap lies", d.gap.rows.empty() ? "No features could be compared." : "",
                      pictures.where);
   if (d.gap.rows.empty()) return out;
-  out.tables = {to_report(share_table(d), "Share of the gap by scale and by observation."),
-                to_report(gap_table(d),
-                          "Every feature. Difference: logarithm of the ratio of simulated to observed, or "
-                          "simulated less observed; sigma is its standard deviation.")};
+  out.tables = {
+      to_report(shown_share_table(d), "Share of the gap by scale and by observation."),
+      to_report(shown_gap_table(d),
+                "Every feature. Difference: simulated over observed less one where compared by ratio, else "
+                "simulated less observed; sigma is its standard deviation; * significant.")};
   return out;
 }
 
 viz::ReportSection which_section(const Diagnosis& d, const Pictures& pictures) {
-  auto out = section("Which effect", "", pictures.which);
+  std::string text;
+  for (const auto& id : d.ambiguity_set)
+    text += fmt::format("{}: {}\n", diagnosis::name_and_id(id), diagnosis::sentence_of(id));
+  auto out = section("Which effect", text, pictures.which);
   out.tables = {to_report(shown_hypothesis_table(d), "Explanations, most probable first.")};
   return out;
 }
@@ -111,20 +94,23 @@ viz::ReportSection promise_section(const Diagnosis& d) {
                    {});
   std::string text = fmt::format(
       "{} simulated runs of known truth were diagnosed as if they had been measured, each by a bank without "
-      "its member. The "
-      "set held the truth in {} % of them (asked for: {} %) at a mean size of {}; `unknown` was in it in {} "
-      "%; intervals of "
-      "90 % held the magnitude in {} %.",
-      p.cases, per_cent(p.in_set), per_cent(p.confidence), rounded(p.set_size), per_cent(p.false_alarms),
-      per_cent(p.theta_held));
+      "its member. The set held the truth in {} of them (asked for: {}), with {} members at the mean and "
+      "something not in the library among them in {}; 90 % intervals held the magnitude in {}.",
+      p.cases, percent(p.in_set), percent(p.confidence), rounded(p.set_size), percent(p.false_alarms),
+      percent(p.theta_held));
+  std::vector<std::string> hidden;
   for (const auto& one : d.unseen)
-    text += fmt::format(" Hardly shown by these observations: {}, if it is there, up to {} {}.", one.effect,
-                        rounded(one.limit), one.unit);
+    hidden.push_back(
+        fmt::format("{} up to {}", diagnosis::name_and_id(one.effect), quantity(one.limit, one.unit)));
+  if (!hidden.empty())
+    text += fmt::format(
+        "\nHardly shown by these observations, with the largest magnitude that could hide (95 %): {}.",
+        fmt::join(hidden, "; "));
   auto out = section("What this can promise", text, {});
-  out.tables = {
-      to_report(promise_table(d), "Replayed runs of each effect: shares told from none, and named first."),
-      to_report(reliability_table(d),
-                "How often the most probable explanation of a replayed run was right.")};
+  out.tables = {to_report(shown_promise_table(d),
+                          "Replayed runs of each effect: shares told from none, and named first."),
+                to_report(reliability_table(d),
+                          "How often the most probable explanation of a replayed run was right.")};
   return out;
 }
 
@@ -132,7 +118,10 @@ viz::ReportSection far_section(const Diagnosis& d, const Pictures& pictures) {
   std::string text;
   if (pictures.how_far.empty()) text = "No test was simulated with an effect added.";
   if (!d.withheld.observations.empty())
-    text = fmt::format("Withheld: {}.", fmt::join(d.withheld.observations, ", "));
+    text = fmt::format("Withheld in turn: {}. Fitted and withheld are of the same features.",
+                       fmt::join(d.withheld.observations, ", "));
+  if (d.fitted.nothing_to_close)
+    text += " Of these features together the gap is within the noise: there is nothing to close.";
   return section("How far the gap shrinks", text, pictures.how_far);
 }
 

@@ -1,11 +1,9 @@
 #include "diagnosis_report/table.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
 #include "base/csv.h"
+#include "base/quantity.h"
 
 namespace pendular::diagnosis_report {
 namespace {
@@ -49,18 +47,6 @@ viz::ReportTable to_report(const Table& table, const std::string& caption) {
     for (const Cell& cell : row) out.rows.back().push_back(in_page(cell));
   }
   return out;
-}
-
-std::string rounded(double value) {
-  if (!std::isfinite(value)) return "";
-  // Whole numbers of up to six digits as they are: 1200 is easier read than 1.2e+03.
-  if (std::fabs(value) >= 100.0 && std::fabs(value) < 1e6) return fmt::format("{:.0f}", value);
-  return fmt::format("{:.3g}", value);
-}
-
-std::string per_cent(double share) {
-  if (share > 0.0 && share < 0.005) return "<1";
-  return fmt::format("{:.0f}", 100.0 * share);
 }
 
 }  // namespace pendular::diagnosis_report

@@ -24,10 +24,4 @@ std::string to_csv(const Table& table);
 /// Numbers with three significant digits, columns' underscores as spaces.
 viz::ReportTable to_report(const Table& table, const std::string& caption);
 
-/// A number with three significant digits; empty where it is not finite.
-std::string rounded(double value);
-
-/// A share in per cent without decimals, "<1" where it rounds to zero but is not.
-std::string per_cent(double share);
-
 }  // namespace pendular::diagnosis_report

@@ -1,8 +1,13 @@
 #include "diagnosis_report/tables.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "base/quantity.h"
+#include "diagnosis/words.h"
 #include "diagnosis_report/explanations.h"
 
 namespace pendular::diagnosis_report {
@@ -30,7 +35,7 @@ void add_to(Table& table, const std::vector<Cell>& start, double amount, std::si
 }
 
 std::vector<Cell> hypothesis_row(const Diagnosis& d, const diagnosis::Explanation& e) {
-  std::vector<Cell> row = {e.id, e.probability};
+  std::vector<Cell> row = {e.id, diagnosis::plain_name(e.id), e.probability};
   for (std::size_t k = 0; k < 2; ++k) {
     const bool there = k < e.magnitudes.size();
     row.emplace_back(there ? e.magnitudes[k].mean : kNone);
@@ -71,10 +76,31 @@ Table gap_table(const Diagnosis& d) {
   return table;
 }
 
+Table shown_gap_table(const Diagnosis& d) {
+  Table table{"", {"feature", "observed", "simulated", "difference", "sigma", "z", "share of the gap"}, {}};
+  for (const auto& row : d.gap.rows) {
+    const auto& f = row.observed;
+    const std::string unit = diagnosis::unit_of(f);
+    const auto compared = [&](double value) {
+      return f.logarithm ? percent(std::expm1(value)) : quantity_within(value, row.sigma, unit);
+    };
+    table.rows.push_back({diagnosis::in_words(f), quantity(f.value, unit), quantity(row.simulated, unit),
+                          compared(row.difference), compared(row.sigma),
+                          fmt::format("{:.1f}{}", row.z, row.significant ? " *" : ""), percent(row.share)});
+  }
+  return table;
+}
+
 Table share_table(const Diagnosis& d) {
   Table table{"gap_shares", {"by", "name", "share"}, {}};
   for (const auto& row : d.gap.rows) add_to(table, {"scale", to_string(row.observed.scale)}, row.share, 2);
   for (const auto& row : d.gap.rows) add_to(table, {"observation", row.observed.observation}, row.share, 2);
+  return table;
+}
+
+Table shown_share_table(const Diagnosis& d) {
+  Table table = share_table(d);
+  for (auto& row : table.rows) row.back() = percent(std::get<double>(row.back()));
   return table;
 }
 
@@ -93,52 +119,50 @@ Table noise_table(const Diagnosis& d) {
 
 Table hypothesis_table(const Diagnosis& d) {
   Table table{"hypotheses",
-              {"id", "probability", "magnitude", "low_90", "high_90", "unit", "magnitude_2", "low_90_2",
-               "high_90_2", "unit_2", "misfit", "in_ambiguity_set", "excluded", "reason"},
+              {"id", "name", "probability", "magnitude", "low_90", "high_90", "unit", "magnitude_2",
+               "low_90_2", "high_90_2", "unit_2", "misfit", "in_ambiguity_set", "excluded", "reason"},
               {}};
   for (const auto& explanation : d.explanations) table.rows.push_back(hypothesis_row(d, explanation));
   return table;
 }
 
 Table shown_hypothesis_table(const Diagnosis& d) {
-  const auto interval = [](const diagnosis::Magnitude& m) {
-    return rounded(m.interval_90.first) + " to " + rounded(m.interval_90.second);
-  };
-  Table table{"", {"explanation", "probability", "magnitude", "90 % interval", "unit", "remark"}, {}};
+  Table table{"", {"explanation", "probability", "magnitude (90 % interval)", "remark"}, {}};
   const Shown shown = shown_of(d);
   for (const auto& e : shown.explanations) {
-    std::string mean, range, unit;
-    for (std::size_t k = 0; k < e.magnitudes.size(); ++k) {
-      const std::string between = k ? "; " : "";
-      mean += between + rounded(e.magnitudes[k].mean);
-      range += between + interval(e.magnitudes[k]);
-      unit += between + (k < e.units.size() ? e.units[k] : "");
-    }
     std::string remark = in_ambiguity_set(d, e.id) ? "in the ambiguity set" : e.excluded ? "excluded" : "";
     if (!e.reason.empty()) remark += (remark.empty() ? "" : ": ") + e.reason;
-    table.rows.push_back({e.id, e.probability, mean, range, unit, remark});
+    table.rows.push_back({diagnosis::name_and_id(e.id), percent(e.probability),
+                          e.excluded ? "" : diagnosis::magnitudes_in_words(e), remark});
   }
   if (shown.other_pairs > 0)
     table.rows.push_back({std::to_string(shown.other_pairs) + " other pairs together",
-                          shown.other_probability, "", "", "", ""});
+                          percent(shown.other_probability), "", ""});
   return table;
 }
 
 Table excluded_table(const Diagnosis& d) {
-  Table table{"excluded", {"id", "probability", "reason"}, {}};
+  Table table{"excluded", {"id", "name", "probability", "reason"}, {}};
   for (const auto& e : d.explanations)
-    if (e.excluded) table.rows.push_back({e.id, e.probability, e.reason});
+    if (e.excluded) table.rows.push_back({e.id, diagnosis::plain_name(e.id), e.probability, e.reason});
   return table;
 }
 
 Table promise_table(const Diagnosis& d) {
-  Table table{"promises", {"effect", "replayed_runs", "told_from_none", "named_first", "in_set"}, {}};
+  Table table{"promises", {"effect", "name", "replayed_runs", "told_from_none", "named_first", "in_set"}, {}};
   for (const auto& [id, effect] : d.promise.effects) {
     const double runs = static_cast<double>(effect.cases);
-    table.rows.push_back({id, runs, static_cast<double>(effect.told_from_none) / runs,
-                          static_cast<double>(effect.first) / runs,
-                          static_cast<double>(effect.in_set) / runs});
+    table.rows.push_back(
+        {id, diagnosis::plain_name(id), runs, static_cast<double>(effect.told_from_none) / runs,
+         static_cast<double>(effect.first) / runs, static_cast<double>(effect.in_set) / runs});
   }
+  return table;
+}
+
+Table shown_promise_table(const Diagnosis& d) {
+  Table table = promise_table(d);
+  for (auto& row : table.rows)
+    for (const std::size_t column : {3, 4}) row[column] = percent(std::get<double>(row[column]));
   return table;
 }
 

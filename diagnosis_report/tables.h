@@ -8,8 +8,14 @@ namespace pendular::diagnosis_report {
 /// gap.csv: a row per feature.
 Table gap_table(const diagnosis::Diagnosis& diagnosis);
 
+/// The same for the page, in words; significant z have a star.
+Table shown_gap_table(const diagnosis::Diagnosis& diagnosis);
+
 /// gap_shares.csv: the share of the gap by scale and by observation.
 Table share_table(const diagnosis::Diagnosis& diagnosis);
+
+/// The same for the page, in per cent.
+Table shown_share_table(const diagnosis::Diagnosis& diagnosis);
 
 /// noise_budget.csv: what makes up the noise of each feature, standard deviations.
 Table noise_table(const diagnosis::Diagnosis& diagnosis);
@@ -25,6 +31,9 @@ Table excluded_table(const diagnosis::Diagnosis& diagnosis);
 
 /// promises.csv: what replayed runs of known truth show of each effect with these observations.
 Table promise_table(const diagnosis::Diagnosis& diagnosis);
+
+/// The same for the page, in per cent.
+Table shown_promise_table(const diagnosis::Diagnosis& diagnosis);
 
 /// How often what was said with some probability came true among replayed runs.
 Table reliability_table(const diagnosis::Diagnosis& diagnosis);

@@ -16,6 +16,8 @@ void change(Sample& sample, double theta) {
 Effect bead_friction() {
   return {.id = "bead_friction",
           .unit = "1",
+          .name = "bead friction other than stated",
+          .sentence = "The friction coefficient between beads is not the stated one.",
           .meaning = "friction coefficient between beads less the stated one",
           .lowest = -2.0,
           .highest = 2.0,

@@ -25,6 +25,8 @@ std::function<void(const BondMoment&)> evolution(const ActualSpecimen&, double t
 Effect bond_damage() {
   return {.id = "bond_damage",
           .unit = "fraction",
+          .name = "bridges that weaken before they break",
+          .sentence = "A bridge loses stiffness over the last part of its life before it breaks.",
           .meaning = "share of its life over which a bond weakens before it breaks",
           .lowest = 0.0,
           .highest = 1.0,

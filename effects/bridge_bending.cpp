@@ -21,6 +21,8 @@ void stiffen(Simulation& simulation, const ActualSpecimen& specimen, double thet
 Effect bridge_bending() {
   return {.id = "bridge_bending",
           .unit = "multiple",
+          .name = "bridges that resist bending",
+          .sentence = "Bridges resist bending and twisting, which the model's bonds do not.",
           .meaning = "bending and twisting stiffness over that by finite elements",
           .lowest = 0.0,
           .highest = 5.0,

@@ -23,6 +23,8 @@ void spread(BridgeBody& body, const Sample& sample, double theta, const Draws& d
 Effect bridge_diameter_spread() {
   return {.id = "bridge_diameter_spread",
           .unit = "um",
+          .name = "spread of bridge diameters",
+          .sentence = "Bridges differ in diameter, where the model gives all of them the mean one.",
           .meaning = "standard deviation of the bridges' diameters",
           .lowest = 0.0,
           .highest = 60.0,

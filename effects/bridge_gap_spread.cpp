@@ -20,15 +20,18 @@ void spread(BridgeBody& body, const Sample& sample, double theta, const Draws& d
 /// stated one and an exponential excess of mean θ, cut at a fifth of D. Longer bridges are softer and break
 /// later. Lowers E; Z stays.
 Effect bridge_gap_spread() {
-  return {.id = "bridge_gap_spread",
-          .unit = "um",
-          .meaning = "mean excess gap of the bridges over the one for which the stiffness is stated",
-          .lowest = 0.0,
-          .highest = 20.0,
-          .bank_from = 0.0,
-          .bank_to = 6.0,
-          .draws = true,
-          .body = spread};
+  return {
+      .id = "bridge_gap_spread",
+      .unit = "um",
+      .name = "bridges longer than stated",
+      .sentence = "Bridges span wider gaps than the one for which their stiffness is stated, and are softer.",
+      .meaning = "mean excess gap of the bridges over the one for which the stiffness is stated",
+      .lowest = 0.0,
+      .highest = 20.0,
+      .bank_from = 0.0,
+      .bank_to = 6.0,
+      .draws = true,
+      .body = spread};
 }
 
 }  // namespace pendular::effects

@@ -32,6 +32,8 @@ void reading(Packing& packing, double theta, const Draws&) {
 Effect diameter_bias() {
   return {.id = "diameter_bias",
           .unit = "um",
+          .name = "biased bead diameters",
+          .sentence = "All measured bead diameters are too large; too small where the magnitude is negative.",
           .meaning = "by how much measured bead diameters are too large",
           .lowest = -10.0,
           .highest = 10.0,

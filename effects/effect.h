@@ -55,6 +55,8 @@ struct Gauge {
 /// effects are called in the order of the list, hooks in the order in which they stand here.
 struct Effect {
   std::string id, unit;
+  std::string name;           ///< plain, a few words in lower case
+  std::string sentence;       ///< what a specimen, its test or its measurement then has
   std::string meaning;        ///< of θ, one line
   double lowest, highest;     ///< accepted θ
   double bank_from, bank_to;  ///< θ of a typical bank of runs

@@ -20,6 +20,8 @@ void thin(BridgeBody& body, const Sample& sample, double theta, const Draws&, st
 Effect funicular_bridges() {
   return {.id = "funicular_bridges",
           .unit = "fraction",
+          .name = "polymer outside the bridges",
+          .sentence = "Above the funicular transition some polymer fills pores and carries no load.",
           .meaning = "share of the polymer above the funicular transition that carries no load",
           .lowest = 0.0,
           .highest = 1.0,

@@ -21,6 +21,8 @@ void change(Simulation& simulation, const ActualSpecimen&, double theta, const D
 Effect interface_strength() {
   return {.id = "interface_strength",
           .unit = "fraction",
+          .name = "interface strength other than stated",
+          .sentence = "Polymer adheres to glass more or less strongly than stated, and not everywhere alike.",
           .meaning = "relative change of the mean interfacial energy, with a spread of half of it",
           .lowest = -0.9,
           .highest = 2.0,

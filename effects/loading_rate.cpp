@@ -18,6 +18,8 @@ void change(Sample& sample, double theta) {
 Effect loading_rate() {
   return {.id = "loading_rate",
           .unit = "ratio",
+          .name = "loading faster than stated",
+          .sentence = "The specimen is loaded faster than stated, so that inertia counts.",
           .meaning = "speed of the run over the stated one",
           .lowest = 0.0,
           .highest = 100.0,

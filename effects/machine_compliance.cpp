@@ -15,6 +15,8 @@ void read(std::vector<CurveRow>& rows, const Gauge& gauge, double theta) {
 Effect machine_compliance() {
   return {.id = "machine_compliance",
           .unit = "um/N",
+          .name = "compliance of the testing machine",
+          .sentence = "The machine gives way under load, which is read as strain of the specimen.",
           .meaning = "compliance in series with the specimen",
           .lowest = 0.0,
           .highest = 1e4,

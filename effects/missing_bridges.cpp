@@ -17,6 +17,8 @@ void remove(Packing& packing, double theta, const Draws& draws) {
 Effect missing_bridges() {
   return {.id = "missing_bridges",
           .unit = "fraction",
+          .name = "bridges missing between near beads",
+          .sentence = "Some pairs of beads that are near enough for a bridge have none.",
           .meaning = "share of the candidate pairs without a bridge",
           .lowest = 0.0,
           .highest = 0.9,

@@ -16,6 +16,8 @@ void change(Sample& sample, double theta) {
 Effect platen_friction() {
   return {.id = "platen_friction",
           .unit = "1",
+          .name = "platen friction other than stated",
+          .sentence = "The friction coefficient at the platens is not the stated one.",
           .meaning = "friction coefficient at the platens less the stated one",
           .lowest = -2.0,
           .highest = 2.0,

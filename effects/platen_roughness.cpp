@@ -21,6 +21,8 @@ void roughen(Simulation& simulation, const ActualSpecimen&, double theta, const 
 Effect platen_roughness() {
   return {.id = "platen_roughness",
           .unit = "um",
+          .name = "rough platens or uneven ends",
+          .sentence = "Platens or ends are uneven from bead to bead, so that few beads carry load at first.",
           .meaning = "root mean square of the platens' unevenness from bead to bead",
           .lowest = 0.0,
           .highest = 200.0,

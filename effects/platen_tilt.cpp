@@ -20,6 +20,8 @@ void tilt(Simulation& simulation, const ActualSpecimen& specimen, double theta, 
 Effect platen_tilt() {
   return {.id = "platen_tilt",
           .unit = "degrees",
+          .name = "tilted platen",
+          .sentence = "The platens are not parallel, so that one side is loaded first.",
           .meaning = "angle between the platens",
           .lowest = 0.0,
           .highest = 10.0,

@@ -23,15 +23,19 @@ std::function<void(const BondMoment&)> evolution(const ActualSpecimen&, double t
 /// criterion measures it; it acts in tension and compression alike and goes back with the strain. Lowers the
 /// slope the more the farther the test has come, and the peak; θ < 0 stiffens.
 Effect polymer_nonlinearity() {
-  return {.id = "polymer_nonlinearity",
-          .unit = "per strain",
-          .meaning = "loss of a bridge's tangent stiffness per unit of its strain",
-          .lowest = -3.0,
-          .highest = 5.0,
-          .bank_from = -0.5,
-          .bank_to = 1.5,
-          .evolution = evolution,
-          .memory = 1};
+  return {
+      .id = "polymer_nonlinearity",
+      .unit = "per strain",
+      .name = "polymer that softens with strain",
+      .sentence =
+          "The polymer's stiffness falls as a bridge is strained; it rises where the magnitude is negative.",
+      .meaning = "loss of a bridge's tangent stiffness per unit of its strain",
+      .lowest = -3.0,
+      .highest = 5.0,
+      .bank_from = -0.5,
+      .bank_to = 1.5,
+      .evolution = evolution,
+      .memory = 1};
 }
 
 }  // namespace pendular::effects

@@ -45,6 +45,8 @@ std::function<void(const BondMoment&)> evolution(const ActualSpecimen& specimen,
 Effect polymer_viscoelasticity() {
   return {.id = "polymer_viscoelasticity",
           .unit = "fraction",
+          .name = "polymer that relaxes",
+          .sentence = "Part of each bridge's stiffness relaxes with time.",
           .meaning = "share of the stiffness that relaxes",
           .lowest = 0.0,
           .highest = 0.95,

@@ -34,6 +34,8 @@ void reading(Packing& packing, double theta, const Draws& draws) {
 Effect position_error() {
   return {.id = "position_error",
           .unit = "um",
+          .name = "unreported error of bead positions",
+          .sentence = "Measured bead centres are less certain than stated.",
           .meaning = "unreported noise of the measured centres along each axis",
           .lowest = 0.0,
           .highest = 20.0,

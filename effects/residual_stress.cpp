@@ -41,6 +41,8 @@ void shrink(Simulation& simulation, const ActualSpecimen& specimen, double theta
 Effect residual_stress() {
   return {.id = "residual_stress",
           .unit = "strain",
+          .name = "bridges shrunk by curing",
+          .sentence = "Bridges shrank as the polymer cured and pull on the beads before the test.",
           .meaning = "shrinkage of the bridges from curing",
           .lowest = -0.05,
           .highest = 0.3,

@@ -44,6 +44,8 @@ void rows(std::vector<CurveRow>& rows, const Gauge&, double theta) {
 Effect voxel_scale() {
   return {.id = "voxel_scale",
           .unit = "fraction",
+          .name = "wrong voxel size",
+          .sentence = "The voxel size of the tomogram is wrong, and all lengths with it.",
           .meaning = "relative error of the voxel size",
           .lowest = -0.2,
           .highest = 0.2,

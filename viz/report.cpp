@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <sstream>
 #include <string_view>
@@ -107,8 +108,14 @@ std::string to_html(const ReportTable& table) {
 
 std::string to_html(const std::vector<ReportRow>& rows) {
   if (rows.empty()) return "";
-  ReportTable table{"", {"Quantity", "Value", "Unit"}, {}};
-  for (const ReportRow& row : rows) table.rows.push_back({row.quantity, row.value, row.unit});
+  const bool units =
+      std::any_of(rows.begin(), rows.end(), [](const ReportRow& row) { return !row.unit.empty(); });
+  ReportTable table{"", {"Quantity", "Value"}, {}};
+  if (units) table.columns.push_back("Unit");
+  for (const ReportRow& row : rows) {
+    table.rows.push_back({row.quantity, row.value});
+    if (units) table.rows.back().push_back(row.unit);
+  }
   return to_html(table);
 }
 
@@ -142,7 +149,7 @@ void write_report(const fs::path& path, const Report& report) {
       "initial-scale=1\"><title>{0}</title><style>{1}</style></head>\n<body>\n<h1>{0}</h1>\n",
       escaped(report.title), kStyle);
   html +=
-      to_html(report.warnings) + paragraphs(" class=\"summary\"", report.summary) + to_html(report.figures);
+      paragraphs(" class=\"summary\"", report.summary) + to_html(report.warnings) + to_html(report.figures);
   for (const ReportSection& section : report.sections) {
     html += fmt::format("<h2>{}</h2>\n", escaped(section.heading));
     html += paragraphs("", section.text) + to_html(section.rows);

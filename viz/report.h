@@ -14,7 +14,8 @@ struct ReportPicture {
   std::string caption;
 };
 
-/// One figure of the table: "Linear modulus", "15.3 ± 0.2", "MPa".
+/// One figure of the table: "Linear modulus", "15.3 ± 0.2", "MPa". Where no row has a unit there is no such
+/// column.
 struct ReportRow {
   std::string quantity, value, unit;
 };
@@ -39,8 +40,8 @@ struct Report {
   std::string summary;  ///< in words; paragraphs end with line breaks
   std::vector<ReportSection> sections;
   nlohmann::ordered_json provenance;       ///< shown at the end; null: none
-  std::vector<std::string> warnings = {};  ///< shown before the summary
-  std::vector<ReportRow> figures = {};     ///< the few that the summary rests on, after it
+  std::vector<std::string> warnings = {};  ///< shown after the summary
+  std::vector<ReportRow> figures = {};     ///< the few that the summary rests on, after both
 };
 
 /// Writes a report as one HTML page that needs nothing else: pictures are embedded, there is no script and no

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "blind/case_folder.h"
 #include "blind/score_files.h"
+#include "program.h"
 #include "scratch.h"
 
 namespace pendular::blind {
@@ -40,6 +41,13 @@ void report(const fs::path& folder, const json& hypotheses, const json& set, dou
   diagnosis["shrinkage"]["withheld"] = {{"before", 2.0}, {"fraction", withheld}};
   diagnosis["shrinkage"]["controls"] = {{"modulus_retuned", retuned}, {"wrong_effect", 0.1}};
   make_folder(folder);
+  write_text(folder / "diagnosis.json", diagnosis.dump());
+}
+
+/// Adds to the report of a case.
+void add_to_report(const fs::path& folder, const json& more) {
+  json diagnosis = json::parse(read_text(folder / "diagnosis.json"));
+  diagnosis.update(more);
   write_text(folder / "diagnosis.json", diagnosis.dump());
 }
 
@@ -106,17 +114,97 @@ TEST_F(Score, HiddenEffectsCountByThemselves) {
   seals += seal(root, "s1", "library", "platen_tilt", tilt, "", {{"hidden", false}, {"scanned", true}});
   write_text(root / "seals.csv", seals);
   report(reports / "h1", {claim("none", 0.9), claim("unknown", 0.1)}, {"none"});
+  json unseen = {{"unseen", {{{"effect", "platen_tilt"}, {"limit_95", 0.1}}}}};
+  add_to_report(reports / "h1", unseen);
   report(reports / "h2", {claim("platen_tilt", 0.95), claim("none", 0.05)}, {"platen_tilt"});
   report(reports / "h3", {claim("grit", 0.95), claim("none", 0.05)}, {"grit"});
-  report(reports / "s1", {claim("platen_tilt", 0.95, 0.011, 0.009, 0.012), claim("none", 0.05)}, {"platen_tilt"});
+  report(reports / "s1", {claim("platen_tilt", 0.95, 0.011, 0.009, 0.012), claim("none", 0.05)},
+         {"platen_tilt"});
   const Scores s = score(verdicts(open_seals(root), reports), false);
   EXPECT_EQ(s.hidden.allowed.of, 3u);
   EXPECT_EQ(s.hidden.allowed.hits, 2u);
   EXPECT_EQ(s.hidden.misnamed.hits, 1u);
+  EXPECT_EQ(s.kept.limits.of, 1u);
+  EXPECT_EQ(s.kept.limits.hits, 1u);
   EXPECT_EQ(s.all.in_set.of, 1u);
   EXPECT_EQ(s.with_scan.single_first.hits, 1u);
   EXPECT_EQ(s.with_scan.magnitude.covered.hits, 1u);
   EXPECT_EQ(s.without_scan.naming.in_set.of, 0u);
+}
+
+/// Squared distances at usual magnitudes: friction is 2 from none and 4 from missing bridges, and so on.
+json separation() {
+  return {{"separation",
+           {{"effects", {"bead_friction", "missing_bridges"}},
+            {"squared_distance", {{0.0, 16.0, 4.0}, {16.0, 0.0, 100.0}}}}}};
+}
+
+TEST_F(Score, CountsWhatAnIdealObserverCannotTellApartAsOne) {
+  for (const char* name : {"c1", "c2", "c3", "c4"}) add_to_report(reports / name, separation());
+  const auto all = verdicts(open_seals(folder / "split"), reports);
+  // θ of c1 is two thirds of the usual 0.15: missing bridges are 16^½ ⅔ = 2.7 from friction, and 6.7 from
+  // none.
+  EXPECT_NEAR(distance_from_truth(all[0], "bead_friction"), 8.0 / 3.0, 1e-12);
+  EXPECT_FALSE(is_right(all[0], "none", Counting::by_class));
+  // θ of c2 is the usual one: `none`, which the report has first, is not told from the truth.
+  EXPECT_EQ(class_of(all[1]), std::vector<std::string>{"none"});
+  EXPECT_FALSE(is_right(all[1], "unknown", Counting::by_class));
+  EXPECT_TRUE(class_of(all[4]).empty());  // an outside mechanism
+  const Scores s = score(all, false);
+  EXPECT_EQ(s.with_distances, 4u);
+  EXPECT_EQ(s.all.exact.hits, 3u);
+  EXPECT_EQ(s.all_by_class.exact.hits, 4u);
+  EXPECT_EQ(s.all_by_class.in_set.hits, s.all.in_set.hits);
+  EXPECT_DOUBLE_EQ(s.all_by_class.set_size, 7.0 / 6.0);  // c2's two members are one answer
+  EXPECT_LT(s.all_by_class.log_score, s.all.log_score);
+}
+
+TEST_F(Score, PairsAreAlikeWhereWhatStandsForWhatIsNear) {
+  report(reports / "c7", {claim("missing_bridges", 0.9), claim("none", 0.1)}, {"missing_bridges"});
+  add_to_report(reports / "c7", separation());
+  const auto pair = verdicts(open_seals(folder / "split"), reports)[6];
+  EXPECT_DOUBLE_EQ(distance_from_truth(pair, "missing_bridges"), 4.0);  // friction by missing bridges
+  EXPECT_NEAR(distance_from_truth(pair, "bead_friction"), 8.0 / 3.0, 1e-12);
+  EXPECT_NEAR(distance_from_truth(pair, "none"), 2.0 + 20.0 / 3.0, 1e-12);
+  EXPECT_EQ(distance_from_truth(pair, pair.answer), 0.0);
+}
+
+TEST_F(Score, SetsWhatCameBesideWhatWasPromised) {
+  const auto promise = [](double in_set, double size) {
+    return json{
+        {"promise", {{"in_set", in_set}, {"set_size", size}, {"theta_held", 0.9}, {"false_alarms", 0.05}}}};
+  };
+  add_to_report(reports / "c1", promise(0.96, 2.0));
+  add_to_report(reports / "c2", promise(0.94, 3.0));
+  add_to_report(reports / "c4", promise(0.95, 4.0));
+  add_to_report(reports / "c5", promise(0.95, 9.0));  // an outside mechanism is not replayed
+  add_to_report(reports / "c2", {{"unseen",
+                                  {{{"effect", "bead_friction"}, {"limit_95", 0.15}},
+                                   {{"effect", "platen_tilt"}, {"limit_95", 0.1}}}}});
+  const Scores s = scores();
+  EXPECT_EQ(s.kept.promises, 3u);
+  EXPECT_NEAR(s.kept.promised_in_set, 0.95, 1e-12);
+  EXPECT_EQ(s.kept.in_set.hits, 2u);
+  EXPECT_EQ(s.kept.in_set.of, 3u);
+  EXPECT_NEAR(s.kept.promised_size, 3.0, 1e-12);
+  EXPECT_NEAR(s.kept.set_size, 4.0 / 3.0, 1e-12);
+  EXPECT_EQ(s.kept_by_stratum.at(Stratum::none).promises, 1u);
+  EXPECT_EQ(s.kept.unknown_alarms.of, 4u);  // c1 to c4
+  EXPECT_EQ(s.kept.unknown_alarms.hits, 0u);
+  EXPECT_EQ(s.kept.limits.of, 1u);    // the tilt is not there
+  EXPECT_EQ(s.kept.limits.hits, 0u);  // 0.2 is above 0.15
+  EXPECT_EQ(s.kept_by_stratum.at(Stratum::library).magnitude.covered.of, 2u);
+}
+
+TEST_F(Score, SetsWhatWasClosedBesideWhatTheTruthCloses) {
+  write_text(reports / "c1" / kOracle, R"({"fraction": 0.9})");
+  write_text(reports / "c2" / kOracle, R"({"fraction": 0.8})");
+  const Scores s = scores();
+  EXPECT_EQ(s.shrinkage.oracles, 2u);
+  EXPECT_NEAR(s.shrinkage.closable, 0.85, 1e-12);
+  EXPECT_EQ(s.shrinkage.reached.hits, 1u);  // 0.8 of 0.9, but 0.4 of 0.8
+  write_text(reports / "c2" / kOracle, R"({"fraction": null, "nothing_to_close": true})");
+  EXPECT_EQ(scores().shrinkage.oracles, 1u);
 }
 
 TEST_F(Score, AveragesLogAndBrierScores) {
@@ -155,7 +243,7 @@ TEST_F(Score, MeasuresMagnitudesAndShrinkage) {
 }
 
 TEST_F(Score, SortsProbabilitiesIntoBins) {
-  const auto bins = scores().reliability;
+  const auto bins = scores().kept.reliability;
   const auto& last = bins.back();
   EXPECT_EQ(last.right.of, 3u);  // 0.9, 0.95, 0.92
   EXPECT_EQ(last.right.hits, 1u);
@@ -196,7 +284,41 @@ TEST_F(Score, WritesATableThatCanBeReadBack) {
   EXPECT_EQ(table.texts("failure")[6], "no diagnosis.json");
   const json written = json::parse(read_text(folder / "score/score.json"));
   EXPECT_EQ(written["all"]["exact"]["hits"], 3);
-  EXPECT_NE(read_text(folder / "score/score.md").find("3 of 7, 43 %"), std::string::npos);
+  EXPECT_EQ(written["kept_by_stratum"]["none"]["reliability"].size(), 5u);
+  EXPECT_EQ(written["all_by_class"]["cases"], 7);
+  const std::string page = read_text(folder / "score/score.md");
+  EXPECT_NE(page.find("3 of 7, 43 %"), std::string::npos);
+  for (const char* heading : {"By name and by class", "Promised and reached", "Reliability"})
+    EXPECT_NE(page.find(std::string("\n## ") + heading + "\n"), std::string::npos) << heading;
+}
+
+TEST_F(Score, ItsTablesGoIntoTheDocumentation) {
+  const auto all = verdicts(open_seals(folder / "split"), reports);
+  write_scores(folder / "score", all, score(all, false), {"0.1.0", "pendular blind score", 1, {}});
+  fs::copy_file(fs::path(PENDULAR_SOURCE_DIR) / "docs/blind.md", folder / "blind.md");
+  const auto written = [&](const std::string& scores) {
+    return pendular::test::shell(folder.path(),
+                                 PENDULAR_SOURCE_DIR "/scripts/blind-docs --page blind.md " + scores);
+  };
+  ASSERT_EQ(written("'Small split=score' score").status, 0);
+  const std::string page = read_text(folder / "blind.md");
+  const auto at = [&](const std::string& words) { return page.find(words); };
+  EXPECT_LT(at("<!-- figures"), at("### Small split\n"));
+  EXPECT_LT(at("### Small split\n"), at("7 cases, 1 without a diagnosis"));
+  EXPECT_LT(at("#### By name and by class\n"), at("#### Reliability\n"));
+  EXPECT_LT(at("#### Reliability\n"), at("### score\n"));
+  EXPECT_LT(at("### score\n"), at("<!-- end of figures -->\n"));
+  EXPECT_LT(at("<!-- end of figures -->\n"), at("## Making\n"));
+  EXPECT_EQ(at("All scores"), std::string::npos);
+  ASSERT_EQ(written("'Small split=score' score").status, 0);  // again: the same page
+  EXPECT_EQ(read_text(folder / "blind.md"), page);
+
+  const auto missing = written("nowhere");
+  EXPECT_EQ(missing.status, 3);
+  EXPECT_NE(missing.errors.find("nowhere/score.md"), std::string::npos);
+  EXPECT_EQ(read_text(folder / "blind.md"), page);
+  write_text(folder / "blind.md", "no marks\n");
+  EXPECT_EQ(written("score").status, 3);
 }
 
 TEST_F(Score, ABrokenSealIsAnError) {

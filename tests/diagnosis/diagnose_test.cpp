@@ -88,6 +88,20 @@ TEST_F(Diagnose, NamesWhatWasWithheldAndClosesTheGap) {
   EXPECT_GT(found.fitted.before, 2.0);
   EXPECT_GT(found.fitted.fraction, 0.7);
   EXPECT_NE(found.verdict.find("missing_bridges"), std::string::npos);
+  // Both are of the same features.
+  EXPECT_EQ(found.fitted.before, found.withheld.before);
+  EXPECT_EQ(found.fitted.observations, found.withheld.observations);
+  // What is true closes as much, and something else does not.
+  const Experiment experiment = read_experiment(folder / "experiment.toml");
+  const fs::path beads = folder / "beads";
+  const auto close = [&](const Changes& changes) {
+    return closed_by(experiment, plan_bank(experiment, {}, beads), beads, std::ref(simulation), changes);
+  };
+  const Shrinkage truth_closes = close({{"missing_bridges", 0.12}});
+  EXPECT_EQ(truth_closes.observations, found.fitted.observations);
+  EXPECT_NEAR(truth_closes.before, found.fitted.before, 0.3 * found.fitted.before);
+  EXPECT_GT(truth_closes.fraction, 0.7);
+  EXPECT_LT(close({{"bead_friction", 0.1}}).fraction, 0.3);
 }
 
 TEST_F(Diagnose, PromisesWhatReplayedRunsShowForAnyNumberOfThreads) {

@@ -78,7 +78,7 @@ TEST(Judgement, NoGapNeedsNoExplanation) {
   const auto diagnosis = judged({0.01, -0.01, 0.01});
   EXPECT_EQ(diagnosis.explanations.front().id, "none");
   EXPECT_EQ(diagnosis.nearest_signature, "none");
-  EXPECT_NE(verdict_of(diagnosis).find("Nothing needs to be explained"), std::string::npos);
+  EXPECT_NE(verdict_of(diagnosis).find("effect is needed"), std::string::npos);
 }
 
 TEST(Judgement, WhatNoEffectCanDoIsUnknown) {
@@ -108,6 +108,20 @@ TEST(Shrinkage, IsOneWhereTheGapIsGoneAndZeroWhereItStays) {
   EXPECT_NEAR(half.fraction, 0.5, 0.02);
   EXPECT_LT(half.interval_90.first, half.fraction);
   EXPECT_GT(half.interval_90.second, half.fraction);
+}
+
+TEST(Shrinkage, OfAGapWithinTheNoiseThereIsNothingToClose) {
+  Gap gap = planted({-0.4, -0.2, -0.3}).landmarks.gap;
+  EXPECT_FALSE(shrinkage_of(gap, Eigen::Vector3d::Zero()).nothing_to_close);
+  // One sigma and a bit in each feature: larger than the noise is on average, and no larger than it may be.
+  const Eigen::MatrixXd covariance = gap.covariance + gap.believed * gap.believed.transpose();
+  const Eigen::MatrixXd lower = covariance.llt().matrixL();
+  gap.values = 1.3 * lower * Eigen::Vector3d::Ones();
+  const auto within = shrinkage_of(gap, Eigen::Vector3d::Zero());
+  EXPECT_TRUE(within.nothing_to_close);
+  EXPECT_GT(within.before, 0.0);
+  EXPECT_EQ(within.fraction, 0.0);
+  EXPECT_EQ(within.interval_90, std::pair(0.0, 0.0));
 }
 
 }  // namespace

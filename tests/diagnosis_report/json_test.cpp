@@ -79,6 +79,25 @@ TEST(DiagnosisJson, APairHasTheMagnitudesOfBothAndTheFirstOnesByItself) {
   EXPECT_EQ(pair["units"], json({"fraction", "degrees"}));
 }
 
+TEST(DiagnosisJson, ExplanationsHavePlainNames) {
+  const json report = read_back(test::planted_diagnosis());
+  EXPECT_EQ(hypothesis(report, "missing_bridges")["name"], "bridges missing between near beads");
+  EXPECT_EQ(hypothesis(report, "missing_bridges")["in_words"],
+            "bridges missing between near beads (missing_bridges), 12 % (8 to 16 %)");
+  for (const auto& h : report["hypotheses"])
+    EXPECT_FALSE(h["sentence"].get<std::string>().empty()) << h["id"];
+}
+
+TEST(DiagnosisJson, OfAGapWithinTheNoiseNoShareIsClosed) {
+  auto diagnosis = test::planted_diagnosis();
+  diagnosis.fitted.nothing_to_close = diagnosis.withheld.nothing_to_close = true;
+  const json shrinkage = read_back(diagnosis)["shrinkage"];
+  EXPECT_TRUE(shrinkage["withheld"]["fraction"].is_null());
+  EXPECT_TRUE(shrinkage["withheld"]["nothing_to_close"]);
+  EXPECT_TRUE(shrinkage["controls"]["modulus_retuned"].is_null());
+  EXPECT_FALSE(shrinkage["withheld"]["before"].is_null());
+}
+
 TEST(DiagnosisJson, LogarithmOfTheRatioWhereverThereIsOne) {
   auto diagnosis = test::planted_diagnosis();
   auto& by_difference = diagnosis.gap.rows[0];

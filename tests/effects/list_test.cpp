@@ -1,5 +1,6 @@
 #include "tests.h"
 
+#include <cctype>
 #include <set>
 
 #include "base/error.h"
@@ -23,6 +24,22 @@ TEST(Effects, AreThoseOfTheContractWithUsableRanges) {
                                         "bead_friction", "platen_friction", "platen_tilt", "platen_roughness",
                                         "machine_compliance", "funicular_bridges", "position_error",
                                         "diameter_bias", "voxel_scale", "loading_rate"}));
+}
+
+TEST(Effects, HaveAPlainNameAndASentenceOfTheirOwn) {
+  std::set<std::string> names, sentences;
+  for (const auto& effect : all_effects()) {
+    EXPECT_TRUE(names.insert(effect.name).second) << effect.id;
+    EXPECT_TRUE(sentences.insert(effect.sentence).second) << effect.id;
+    EXPECT_GE(effect.name.size(), 10u) << effect.id;
+    EXPECT_LE(effect.name.size(), 40u) << effect.id;
+    EXPECT_EQ(effect.name.find('_'), std::string::npos) << effect.id;
+    EXPECT_TRUE(std::islower(static_cast<unsigned char>(effect.name.front()))) << effect.id;
+    EXPECT_GE(effect.sentence.size(), 30u) << effect.id;
+    EXPECT_LE(effect.sentence.size(), 100u) << effect.id;
+    EXPECT_TRUE(std::isupper(static_cast<unsigned char>(effect.sentence.front()))) << effect.id;
+    EXPECT_EQ(effect.sentence.find('.'), effect.sentence.size() - 1) << effect.id;  // one sentence
+  }
 }
 
 TEST(Effects, AreReadFromASampleAndWrittenBack) {

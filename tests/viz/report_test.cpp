@@ -57,6 +57,22 @@ TEST(Report, EscapesEveryTextAndRefersToNothingOutside) {
   EXPECT_NE(html.find("&lt;script src=&#39;http://e.org&#39;&gt;&amp;&quot;"), std::string::npos);
 }
 
+TEST(Report, TheSummaryComesFirstThenWarningsThenFigures) {
+  const test::ScratchFolder scratch;
+  viz::Report report{"t", "summary", {}, nullptr};
+  report.warnings = {"warning"};
+  report.figures = {{"quantity", "12", ""}};
+  const auto html = [&] {
+    viz::write_report(scratch / "r.html", report);
+    return read_text(scratch / "r.html");
+  };
+  EXPECT_LT(html().find(">summary<"), html().find(">warning<"));
+  EXPECT_LT(html().find(">warning<"), html().find(">quantity<"));
+  EXPECT_EQ(html().find("Unit"), std::string::npos);
+  report.figures.push_back({"other", "1", "m"});
+  EXPECT_NE(html().find("Unit"), std::string::npos);
+}
+
 TEST(Report, MissingPictureIsBadInputAndLeavesNoReport) {
   const test::ScratchFolder scratch;
   EXPECT_THROW(viz::write_report(scratch / "r.html",

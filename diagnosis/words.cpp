@@ -1,0 +1,113 @@
+#include "diagnosis/words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/quantity.h"
+#include "diagnosis/judgement.h"
+#include "effects/list.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+const effects::Effect* effect_of(const std::string& id) {
+  const auto& all = effects::all_effects();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const auto& effect) { return effect.id == id; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+/// What `of_one` makes of the effects that an id holds.
+template <typename OfOne>
+std::string of_each(const std::string& id, const char* between, const OfOne& of_one) {
+  std::string text;
+  for (const auto& effect : effects_in(id)) {
+    if (!text.empty()) text += between;
+    text += of_one(effect);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string plain_name(const std::string& id) {
+  if (id == "none") return "no effect";
+  if (id == "unknown") return "something not in the library";
+  return of_each(id, " with ", [](const std::string& one) {
+    const auto* effect = effect_of(one);
+    return effect ? effect->name : one;
+  });
+}
+
+std::string sentence_of(const std::string& id) {
+  if (id == "none") return "Experiment and simulation as believed agree within the noise.";
+  if (id == "unknown")
+    return "Something acts that is none of the known effects, or a believed input is farther off.";
+  return of_each(id, " ", [](const std::string& one) {
+    const auto* effect = effect_of(one);
+    return effect ? effect->sentence : std::string();
+  });
+}
+
+std::string name_and_id(const std::string& id) {
+  const std::string name = plain_name(id);
+  return name == id ? id : fmt::format("{} ({})", name, id);
+}
+
+std::string magnitudes_in_words(const Explanation& explanation) {
+  std::string text;
+  for (std::size_t k = 0; k < explanation.magnitudes.size(); ++k) {
+    const auto& [mean, interval] = explanation.magnitudes[k];
+    const std::string unit = k < explanation.units.size() ? explanation.units[k] : "";
+    if (k > 0) text += " and ";
+    text += quantity(mean, interval, unit);
+  }
+  return text;
+}
+
+std::string in_words(const Explanation& explanation) {
+  const std::string name = name_and_id(explanation.id), magnitudes = magnitudes_in_words(explanation);
+  return magnitudes.empty() ? name : name + ", " + magnitudes;
+}
+
+std::string in_words(const Feature& feature) {
+  if (feature.name == feature.observation) return feature.name;
+  std::string name =
+      feature.name.ends_with("_um") ? feature.name.substr(0, feature.name.size() - 3) : feature.name;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return fmt::format("{} of {}", name, feature.observation);
+}
+
+std::string unit_of(const Feature& feature) {
+  const auto has = [&](const char* part) { return feature.name.find(part) != std::string::npos; };
+  if (feature.name.ends_with("_um")) return "um";
+  if (has("exponent")) return "1";
+  if (feature.name == "kn_level" || feature.name == "kt_level") return "N/m";
+  if (has("modulus") || has("stress")) return "Pa";
+  if (has("strain") || feature.name == "linear_limit" || feature.name.starts_with("bridged_"))
+    return "fraction";
+  return "1";
+}
+
+std::string unit_of_key(const std::string& key) {
+  return key.ends_with("_pa") ? "Pa" : key.ends_with("_um") ? "um" : "1";
+}
+
+std::string in_words(const Shrinkage& shrinkage) {
+  if (shrinkage.nothing_to_close) return "nothing to close";
+  return quantity(shrinkage.fraction, shrinkage.interval_90, "fraction");
+}
+
+std::string joined(const std::vector<std::string>& words, std::size_t most, const char* last) {
+  std::vector<std::string> shown(words.begin(), words.begin() + std::min(words.size(), most));
+  if (words.size() > most) shown.push_back(fmt::format("{} more", words.size() - most));
+  std::string text;
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    if (k > 0) text += k + 1 == shown.size() ? last : ", ";
+    text += shown[k];
+  }
+  return text;
+}
+
+}  // namespace pendular::diagnosis
