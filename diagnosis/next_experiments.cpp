@@ -15,7 +15,6 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kInQuestion = 0.02;    // probability from which an effect is
 constexpr double kSpacing = 1.0 / 6.0;  // of magnitudes in a bank, over its largest
 constexpr double kOfInterval = 3.29;    // standard deviations in an interval of 90 %
 constexpr double kGain = 0.02;          // bits below which nothing is gained
@@ -188,9 +187,15 @@ Question question_before(const BankPlan& plan, const std::set<std::string>& abou
   return question;
 }
 
+std::vector<Replayed> replayed_with(const BankInHand& bank, const Experiment& experiment,
+                                    const std::set<std::string>& effects) {
+  Prospect prospect(bank, experiment, effects);
+  return prospect.missing() > 0 ? std::vector<Replayed>{} : prospect.replayed();
+}
+
 NextSteps next_steps(const BankInHand& bank, const Question& question, std::vector<LedgerRow>& ledger) {
   NextSteps steps;
-  const auto now = Prospect(bank, bank.experiment, question.effects).replayed();
+  const auto now = replayed_with(bank, bank.experiment, question.effects);
   steps.now = outlook(now, question, bank.confidence);
   if (steps.now.cases == 0) return steps;
   for (const auto& measurement : further_measurements()) {

@@ -11,6 +11,9 @@
 
 namespace pendular::diagnosis {
 
+/// Explanations from this probability on are in question, beside those of the set.
+inline constexpr double kInQuestion = 0.02;
+
 /// What is in question, and how likely each answer is.
 struct Question {
   std::set<std::string> effects;                ///< the library that is left
@@ -35,6 +38,11 @@ struct BankInHand {
   double confidence = 0.95;
   std::size_t measured = 0;  ///< observations of the experiment that were made; the others are planned
 };
+
+/// Every run of a bank without an effect or with one of some, diagnosed with all that an experiment on the
+/// same specimens has. Empty where the bank lacks runs of it.
+std::vector<Replayed> replayed_with(const BankInHand& bank, const Experiment& experiment,
+                                    const std::set<std::string>& effects);
 
 /// What further measurements are expected to bring: each is added to the experiment as it would be planned,
 /// runs of the bank are taken for the truth, and diagnosed with it (replay()). Conditions that the bank lacks

@@ -1,0 +1,164 @@
+// Whether advice settles: from one compression curve, runs of a bank are taken for the truth, the best or the
+// worst of the ranked measurements is made, twice, and the set is looked at.
+//
+//   advice_bench EXPERIMENT.toml STORE [RUNS]
+//
+// EXPERIMENT's first compression curve alone is known at the start; its runs must be in STORE (pendular
+// diagnose). Measurements that need further runs are not offered.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "diagnosis/bank.h"
+#include "diagnosis/calibration.h"
+#include "diagnosis/further_measurements.h"
+#include "diagnosis/judgement.h"
+#include "diagnosis/next_experiments.h"
+#include "effects/list.h"
+#include "sweep/store.h"
+
+namespace {
+
+using namespace pendular;
+using namespace pendular::diagnosis;
+
+constexpr int kSteps = 2;
+
+/// A curve, and what was measured after it.
+struct State {
+  Experiment experiment;
+  std::set<std::string> known;  ///< effects that were found or ruled out directly
+  std::string key;
+};
+
+class Bench {
+ public:
+  Bench(Experiment curve, const fs::path& store) : curve_(std::move(curve)), beads_(store / "measured") {
+    BankOptions options;
+    options.runs = 0;
+    plan_ = plan_bank(curve_, options, beads_);
+    tests_.resize(plan_.points.size(), SimulatedTests(plan_.conditions.size()));
+    const sweep::Store runs(store);
+    for (std::size_t k = 0; k < plan_.runs.size(); ++k) {
+      const auto& [point, condition] = plan_.runs[k];
+      const std::string hash = sweep::content_hash(plan_.requests[k]);
+      sweep::RunOutcome outcome;
+      outcome.hash = hash, outcome.folder = runs.run_folder(hash);
+      outcome.status =
+          fs::exists(outcome.folder / "result.json") ? sweep::RunStatus::done : sweep::RunStatus::waiting;
+      tests_[point][condition] = read_outcome(outcome, condition, "", plan_.points[point].changes, ledger_);
+    }
+    for (const auto& effect : effects::all_effects())
+      if (!plan_.absent.contains(effect.id)) effects_.insert(effect.id);
+  }
+
+  State start() const { return {curve_, {}, ""}; }
+
+  /// All runs, diagnosed with what a state knows.
+  const std::vector<Replayed>& replayed(const State& state) {
+    auto& found = kept_[state.key];
+    if (found.empty()) found = knowing(replayed_with(hand(state), state.experiment, effects_), state.known);
+    return found;
+  }
+
+  /// The set and the question that one of the runs comes to.
+  std::pair<AmbiguitySet, Question> diagnosed(const State& state, std::size_t run) {
+    const auto& all = replayed(state);
+    const Correction correction = promise_of(all, kConfidence).correction;
+    const auto said = corrected(all[run].said, correction);
+    const AmbiguitySet set = set_of(said, correction);
+    Question question;
+    for (const auto& h : said) {
+      const bool in =
+          h.probability >= kInQuestion || std::find(set.ids.begin(), set.ids.end(), h.id) != set.ids.end();
+      if (!in || h.id == "unknown") continue;
+      question.probabilities[h.id] = h.probability;
+      if (h.id == "none") continue;
+      question.effects.insert(h.id);
+      question.magnitudes[h.id] = h.magnitudes.front();
+    }
+    return {set, question};
+  }
+
+  /// The state after the best measurement, or the worst that is ranked; nothing where none is.
+  std::optional<State> advised(const State& state, const Question& question, bool best) {
+    const NextSteps steps = next_steps(hand(state), question, ledger_);
+    std::vector<NextExperiment> ranked;
+    for (const auto& next : steps.experiments)
+      if (next.outlook.cases > 0) ranked.push_back(next);
+    if (ranked.empty()) return std::nullopt;
+    const std::string name = best ? ranked.front().observation : ranked.back().observation;
+    for (const auto& measurement : further_measurements()) {
+      if (measurement.name != name) continue;
+      State after = state;
+      after.key += name + ";";
+      if (measurement.added)
+        after.experiment = *measurement.added(state.experiment);
+      else
+        after.known.insert(measurement.settles.begin(), measurement.settles.end());
+      return after;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr double kConfidence = 0.95;
+
+  BankInHand hand(const State& state) const {
+    return {state.experiment, plan_, tests_, beads_, nullptr, {}, kConfidence, 1};
+  }
+
+  Experiment curve_;
+  fs::path beads_;
+  BankPlan plan_;
+  std::vector<SimulatedTests> tests_;
+  std::vector<LedgerRow> ledger_;
+  std::set<std::string> effects_;
+  std::map<std::string, std::vector<Replayed>> kept_;
+};
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count < 3) {
+    std::cerr << "advice_bench EXPERIMENT.toml STORE [RUNS]\n";
+    return 2;
+  }
+  Experiment experiment = read_experiment(words[1]);
+  experiment.observations.resize(1);
+  Bench bench(experiment, words[2]);
+  const std::size_t wanted = count > 3 ? std::stoul(words[3]) : 24;
+  const auto start = bench.start();
+  const std::size_t runs = bench.replayed(start).size();
+  std::vector<std::size_t> open;
+  for (std::size_t k = 0; k < runs; ++k)
+    if (!bench.replayed(start)[k].truth.empty() && bench.diagnosed(start, k).first.ids.size() > 1)
+      open.push_back(k);
+  std::cout << fmt::format("{} of {} runs are open after one curve\n", open.size(), runs);
+  std::cout << "| advice | runs | set of one | it is right | mean size |\n|---|---|---|---|---|\n";
+  for (const bool best : {true, false}) {
+    double single = 0.0, right = 0.0, size = 0.0, taken = 0.0;
+    for (std::size_t n = 0; n < std::min(wanted, open.size()); ++n) {
+      const std::size_t run = open[n * open.size() / std::min(wanted, open.size())];
+      State state = start;
+      auto [set, question] = bench.diagnosed(state, run);
+      for (int step = 0; step < kSteps && set.ids.size() > 1; ++step) {
+        auto after = bench.advised(state, question, best);
+        if (!after || bench.replayed(*after).size() != runs) break;
+        state = std::move(*after);
+        std::tie(set, question) = bench.diagnosed(state, run);
+      }
+      const std::string& truth = bench.replayed(start)[run].truth.begin()->first;
+      taken += 1.0, size += static_cast<double>(set.ids.size());
+      single += set.ids.size() == 1;
+      right += set.ids.size() == 1 && set.ids.front() == truth;
+      std::cerr << fmt::format("{} {}: {} after {}\n", best ? "best" : "worst", truth,
+                               fmt::join(set.ids, " "), state.key);
+    }
+    std::cout << fmt::format("| {} | {:.0f} | {:.0f} | {:.0f} | {:.2f} |\n", best ? "best" : "worst", taken,
+                             single, right, size / taken);
+  }
+}
