@@ -85,6 +85,20 @@ double marginal(const std::vector<Hypothesis>& hypotheses, const std::string& ef
   return sum;
 }
 
+/// Intervals that a correction has widened do not go beyond what effects can be.
+std::vector<Hypothesis> within_range(std::vector<Hypothesis> hypotheses) {
+  for (auto& h : hypotheses) {
+    const auto ids = effects_in(h.id);
+    for (std::size_t k = 0; k < h.magnitudes.size(); ++k) {
+      const effects::Effect& effect = effects::find_effect(ids[k], "diagnosis");
+      auto& [low, high] = h.magnitudes[k].interval_90;
+      low = std::clamp(low, effect.lowest, effect.highest);
+      high = std::clamp(high, effect.lowest, effect.highest);
+    }
+  }
+  return hypotheses;
+}
+
 /// Why a single effect is out of the question.
 std::string why_excluded(const Problem& problem, const Hypothesis& h, double misfit_of_none, double visible,
                          const Rules& rules) {
@@ -240,8 +254,8 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
                                   : std::vector<Replayed>{},
                  rules.confidence);
   const auto hypotheses =
-      corrected(weigh(readings.gap, readings.signatures, readings.together, priors, Pairs::run),
-                diagnosis.promise.correction);
+      within_range(corrected(weigh(readings.gap, readings.signatures, readings.together, priors, Pairs::run),
+                             diagnosis.promise.correction));
   set_explanations(problem, hypotheses, rules, plan, diagnosis);
   const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();
   diagnosis.nearest_signature = nearest_signature(hypotheses, directions);

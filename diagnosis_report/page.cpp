@@ -69,7 +69,7 @@ viz::ReportSection which_section(const Diagnosis& d, const Pictures& pictures) {
 }
 
 viz::ReportSection excluded_section(const Diagnosis& d) {
-  const Table table = excluded_table(d);
+  const Table table = shown_excluded_table(d);
   auto out = section("Excluded effects", table.rows.empty() ? "None is excluded." : "", {});
   if (!table.rows.empty()) out.tables = {to_report(table, "")};
   return out;
