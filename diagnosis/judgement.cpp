@@ -153,9 +153,12 @@ void set_unseen(const std::vector<Hypothesis>& hypotheses, Diagnosis& diagnosis)
   const Correction& correction = diagnosis.promise.correction;
   const auto& set = diagnosis.ambiguity_set;
   for (const auto& h : hypotheses)
-    if (correction.unseen.contains(h.id) && std::find(set.begin(), set.end(), h.id) == set.end())
-      diagnosis.unseen.push_back({h.id, effects::find_effect(h.id, "diagnosis").unit,
-                                  upper_limit(h.magnitudes.front(), correction)});
+    if (correction.unseen.contains(h.id) && std::find(set.begin(), set.end(), h.id) == set.end()) {
+      const effects::Effect& effect = effects::find_effect(h.id, "diagnosis");
+      const double largest = std::max(std::fabs(effect.lowest), std::fabs(effect.highest));
+      diagnosis.unseen.push_back(
+          {h.id, effect.unit, std::min(largest, upper_limit(h.magnitudes.front(), correction))});
+    }
 }
 
 void set_groups(const Problem& problem, const Experiment& experiment, Diagnosis& diagnosis) {
@@ -254,9 +257,9 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
                                   : std::vector<Replayed>{},
                  rules.confidence);
   const auto hypotheses =
-      within_range(corrected(weigh(readings.gap, readings.signatures, readings.together, priors, Pairs::run),
-                             diagnosis.promise.correction));
-  set_explanations(problem, hypotheses, rules, plan, diagnosis);
+      corrected(weigh(readings.gap, readings.signatures, readings.together, priors, Pairs::run),
+                diagnosis.promise.correction);
+  set_explanations(problem, within_range(hypotheses), rules, plan, diagnosis);
   const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();
   diagnosis.nearest_signature = nearest_signature(hypotheses, directions);
   const Hypothesis& best = hypotheses.front();
