@@ -41,8 +41,8 @@ SpeltUnit spelt_unit(const std::string& unit, double largest) {
   if (unit == "um") return {" µm"};
   if (unit == "um/N") return {" µm/N"};
   if (unit == "degrees") return {"°"};
-  if (unit == "multiple" || unit == "ratio") return {" times"};
-  if (unit == "per strain") return {" per unit strain"};
+  if (unit == "multiple" || unit == "ratio") return {" times", 1.0, true};
+  if (unit == "per strain") return {" per unit strain", 1.0, true};
   if (unit == "Pa") {
     if (largest >= 1e9) return {" GPa", 1e-9};
     if (largest >= 1e6) return {" MPa", 1e-6};
@@ -78,8 +78,10 @@ std::string quantity(double value, const std::pair<double, double>& interval, co
   const double width = interval.second - interval.first;
   if (!(width > 0.0) || !std::isfinite(width)) return quantity(value, unit);
   const SpeltUnit spelling = spelt_unit(unit, std::max(std::fabs(value), largest_of(interval)));
-  return fmt::format("{}{} ({})", fixed(spelling.factor * value, decimals_of(spelling.factor * width)),
-                     spelling.after, interval_text(interval, spelling));
+  const std::string number = fixed(spelling.factor * value, decimals_of(spelling.factor * width));
+  if (!spelling.word)
+    return fmt::format("{}{} ({})", number, spelling.after, interval_text(interval, spelling));
+  return fmt::format("{} ({}){}", number, interval_text(interval, {"", spelling.factor}), spelling.after);
 }
 
 std::string quantity_within(double value, double sigma, const std::string& unit) {

@@ -18,6 +18,7 @@ std::string percent(double share);
 struct SpeltUnit {
   std::string after;  ///< a number, its space included
   double factor = 1.0;
+  bool word = false;  ///< told once, after an interval: "1.2 (0.9 to 1.5) times"
 };
 
 /// Units are those of the library of effects and of tables: um is spelt µm, degrees are °; fractions and

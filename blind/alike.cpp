@@ -45,7 +45,12 @@ double distance_from_truth(const Verdict& verdict, const std::string& answer) {
 
 bool is_right(const Verdict& verdict, const std::string& answer, Counting counting) {
   if (answer == verdict.answer) return true;
-  return counting == Counting::by_class && distance_from_truth(verdict, answer) < kTold;
+  if (counting == Counting::by_name || !verdict.said) return false;
+  const auto& untold = verdict.said->untold;
+  if ((answer == "none" && untold.contains(verdict.answer)) ||
+      (verdict.answer == "none" && untold.contains(answer)))
+    return true;
+  return distance_from_truth(verdict, answer) < kTold;
 }
 
 std::vector<std::string> class_of(const Verdict& verdict) {

@@ -21,6 +21,9 @@ inline constexpr double kTold = 3.0;
 /// nothing is withheld it is the distance of the answer, at its usual magnitude, from none.
 double distance_from_truth(const Verdict& verdict, const std::string& answer);
 
+/// By class, an answer nearer to the truth than kTold is right, too; and, of a single effect and none, either
+/// where the other is true and the replay of the diagnosis told the effect from none in less than half of its
+/// runs.
 bool is_right(const Verdict& verdict, const std::string& answer, Counting counting);
 
 /// The single effects, and `none`, that count as the truth beside its name.

@@ -115,8 +115,9 @@ std::string names_table(const Scores& s) {
          fmt::format(
              "\nBy class, answers count as one with the truth that are nearer to it than {:g} standard "
              "deviations of the noise on the case's own observations, at its magnitude: an ideal observer "
-             "could not tell them apart. Outside mechanisms are in no class. {} of {} cases have a diagnosis "
-             "that states such distances; in the others the name alone counts.\n",
+             "could not tell them apart. Effects that the report's replay told from none in less than half "
+             "of their runs are one with none. Outside mechanisms are in no class. {} of {} cases have a "
+             "diagnosis that states such distances; in the others the name alone counts.\n",
              kTold, s.with_distances, s.all.in_set.of);
 }
 

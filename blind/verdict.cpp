@@ -64,6 +64,10 @@ void read_promise(Diagnosed& said, const json& promise) {
   const auto in_set = number_in(promise, "in_set"), size = number_in(promise, "set_size"),
              theta = number_in(promise, "theta_held"), alarms = number_in(promise, "false_alarms");
   if (in_set && size && theta && alarms) said.promised = {*in_set, *size, *theta, *alarms};
+  const json effects = promise.value("effects", json::object());  // items() does not keep it alive
+  for (const auto& [id, runs] : effects.items())
+    if (2 * runs.at("told_from_none").get<std::size_t>() < runs.at("cases").get<std::size_t>())
+      said.untold.insert(id);
 }
 
 /// The last column is the distance from none.

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,6 +47,7 @@ struct Diagnosed {
   std::optional<std::string> nearest_signature;
   std::optional<Promised> promised;
   std::map<std::string, double> limits;  ///< upper limits of |θ| of effects that are hardly shown
+  std::set<std::string> untold;  ///< effects that the replay tells from none in less than half of their runs
   /// Squared distance of each effect at its usual magnitude from the nearest that another can do, and from
   /// "none".
   std::map<std::string, std::map<std::string, double>> squared_distance;

@@ -85,6 +85,20 @@ double marginal(const std::vector<Hypothesis>& hypotheses, const std::string& ef
   return sum;
 }
 
+/// Intervals that a correction has widened do not go beyond what effects can be.
+std::vector<Hypothesis> within_range(std::vector<Hypothesis> hypotheses) {
+  for (auto& h : hypotheses) {
+    const auto ids = effects_in(h.id);
+    for (std::size_t k = 0; k < h.magnitudes.size(); ++k) {
+      const effects::Effect& effect = effects::find_effect(ids[k], "diagnosis");
+      auto& [low, high] = h.magnitudes[k].interval_90;
+      low = std::clamp(low, effect.lowest, effect.highest);
+      high = std::clamp(high, effect.lowest, effect.highest);
+    }
+  }
+  return hypotheses;
+}
+
 /// Why a single effect is out of the question.
 std::string why_excluded(const Problem& problem, const Hypothesis& h, double misfit_of_none, double visible,
                          const Rules& rules) {
@@ -139,9 +153,12 @@ void set_unseen(const std::vector<Hypothesis>& hypotheses, Diagnosis& diagnosis)
   const Correction& correction = diagnosis.promise.correction;
   const auto& set = diagnosis.ambiguity_set;
   for (const auto& h : hypotheses)
-    if (correction.unseen.contains(h.id) && std::find(set.begin(), set.end(), h.id) == set.end())
-      diagnosis.unseen.push_back({h.id, effects::find_effect(h.id, "diagnosis").unit,
-                                  upper_limit(h.magnitudes.front(), correction)});
+    if (correction.unseen.contains(h.id) && std::find(set.begin(), set.end(), h.id) == set.end()) {
+      const effects::Effect& effect = effects::find_effect(h.id, "diagnosis");
+      const double largest = std::max(std::fabs(effect.lowest), std::fabs(effect.highest));
+      diagnosis.unseen.push_back(
+          {h.id, effect.unit, std::min(largest, upper_limit(h.magnitudes.front(), correction))});
+    }
 }
 
 void set_groups(const Problem& problem, const Experiment& experiment, Diagnosis& diagnosis) {
@@ -242,7 +259,7 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   const auto hypotheses =
       corrected(weigh(readings.gap, readings.signatures, readings.together, priors, Pairs::run),
                 diagnosis.promise.correction);
-  set_explanations(problem, hypotheses, rules, plan, diagnosis);
+  set_explanations(problem, within_range(hypotheses), rules, plan, diagnosis);
   const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();
   diagnosis.nearest_signature = nearest_signature(hypotheses, directions);
   const Hypothesis& best = hypotheses.front();

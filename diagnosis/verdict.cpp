@@ -43,7 +43,7 @@ std::string cause(const Diagnosis& diagnosis) {
                        probability, joined(rest, kListed));
   return fmt::format(
       "The cause is not known: {} explanations, {} together, cannot be told apart; the most probable is {}, "
-      "{}; the others are {}.",
+      "{}; not excluded: {}.",
       rest.size() + 1, percent(diagnosis.set_probability), in_words(best), probability,
       joined(rest, kListed));
 }
@@ -68,7 +68,8 @@ std::string difference_of(const GapRow& row) {
   const Feature& feature = row.observed;
   if (!feature.logarithm)
     return fmt::format("{} is {} in the simulation and {} in the experiment", in_words(feature),
-                       quantity(row.simulated, unit_of(feature)), quantity(feature.value, unit_of(feature)));
+                       quantity_within(row.simulated, row.sigma, unit_of(feature)),
+                       quantity_within(feature.value, row.sigma, unit_of(feature)));
   const std::string ratio = rounded(std::exp(std::fabs(row.difference)));
   const bool larger = row.difference > 0.0;
   if (feature.name.find("modulus") != std::string::npos)
@@ -120,11 +121,11 @@ std::string trust(const Diagnosis& diagnosis) {
   std::string text;
   const auto& p = diagnosis.promise;
   if (p.cases > 0)
-    text += fmt::format("Of {} replayed runs {} had their truth in the set, of {:.1f} members at the mean.",
+    text += fmt::format("In {} replayed runs the set held the truth in {}, with {:.1f} members on average.",
                         p.cases, percent(p.in_set), p.set_size);
   std::vector<std::string> hidden;
   for (const auto& one : diagnosis.unseen)
-    hidden.push_back(fmt::format("{} up to {}", plain_name(one.effect), quantity(one.limit, one.unit)));
+    hidden.push_back(fmt::format("{} up to {}", plain_name(one.effect), limit_in_words(one)));
   if (!hidden.empty())
     text += fmt::format(" These observations would hardly show {}.", joined(hidden, kListed));
   for (const auto& place : diagnosis.places) text += " " + place.words;

@@ -94,6 +94,10 @@ std::string unit_of_key(const std::string& key) {
   return key.ends_with("_pa") ? "Pa" : key.ends_with("_um") ? "um" : "1";
 }
 
+std::string limit_in_words(const Unseen& unseen) {
+  return quantity_within(unseen.limit, 0.1 * unseen.limit, unseen.unit);
+}
+
 std::string in_words(const Shrinkage& shrinkage) {
   if (shrinkage.nothing_to_close) return "nothing to close";
   return quantity(shrinkage.fraction, shrinkage.interval_90, "fraction");

@@ -69,7 +69,7 @@ viz::ReportSection which_section(const Diagnosis& d, const Pictures& pictures) {
 }
 
 viz::ReportSection excluded_section(const Diagnosis& d) {
-  const Table table = excluded_table(d);
+  const Table table = shown_excluded_table(d);
   auto out = section("Excluded effects", table.rows.empty() ? "None is excluded." : "", {});
   if (!table.rows.empty()) out.tables = {to_report(table, "")};
   return out;
@@ -94,14 +94,14 @@ viz::ReportSection promise_section(const Diagnosis& d) {
                    {});
   std::string text = fmt::format(
       "{} simulated runs of known truth were diagnosed as if they had been measured, each by a bank without "
-      "its member. The set held the truth in {} of them (asked for: {}), with {} members at the mean and "
+      "its member. The set held the truth in {} of them (asked for: {}), with {} members on average and "
       "something not in the library among them in {}; 90 % intervals held the magnitude in {}.",
       p.cases, percent(p.in_set), percent(p.confidence), rounded(p.set_size), percent(p.false_alarms),
       percent(p.theta_held));
   std::vector<std::string> hidden;
   for (const auto& one : d.unseen)
     hidden.push_back(
-        fmt::format("{} up to {}", diagnosis::name_and_id(one.effect), quantity(one.limit, one.unit)));
+        fmt::format("{} up to {}", diagnosis::name_and_id(one.effect), diagnosis::limit_in_words(one)));
   if (!hidden.empty())
     text += fmt::format(
         "\nHardly shown by these observations, with the largest magnitude that could hide (95 %): {}.",

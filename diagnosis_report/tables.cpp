@@ -131,13 +131,20 @@ Table shown_hypothesis_table(const Diagnosis& d) {
   const Shown shown = shown_of(d);
   for (const auto& e : shown.explanations) {
     std::string remark = in_ambiguity_set(d, e.id) ? "in the ambiguity set" : e.excluded ? "excluded" : "";
-    if (!e.reason.empty()) remark += (remark.empty() ? "" : ": ") + e.reason;
+    if (!e.excluded && !e.reason.empty()) remark += (remark.empty() ? "" : ": ") + e.reason;
     table.rows.push_back({diagnosis::name_and_id(e.id), percent(e.probability),
                           e.excluded ? "" : diagnosis::magnitudes_in_words(e), remark});
   }
   if (shown.other_pairs > 0)
     table.rows.push_back({std::to_string(shown.other_pairs) + " other pairs together",
                           percent(shown.other_probability), "", ""});
+  return table;
+}
+
+Table shown_excluded_table(const Diagnosis& d) {
+  Table table{"", {"explanation", "probability", "reason"}, {}};
+  for (const auto& e : d.explanations)
+    if (e.excluded) table.rows.push_back({diagnosis::name_and_id(e.id), percent(e.probability), e.reason});
   return table;
 }
 

@@ -23,11 +23,15 @@ Table noise_table(const diagnosis::Diagnosis& diagnosis);
 /// hypotheses.csv: every explanation.
 Table hypothesis_table(const diagnosis::Diagnosis& diagnosis);
 
-/// The same for the page: pairs that do not matter summed up in one row.
+/// The same for the page: pairs that do not matter summed up in one row; why effects are excluded is said
+/// once, in shown_excluded_table().
 Table shown_hypothesis_table(const diagnosis::Diagnosis& diagnosis);
 
 /// excluded.csv: the explanations that are excluded, and why.
 Table excluded_table(const diagnosis::Diagnosis& diagnosis);
+
+/// The same for the page.
+Table shown_excluded_table(const diagnosis::Diagnosis& diagnosis);
 
 /// promises.csv: what replayed runs of known truth show of each effect with these observations.
 Table promise_table(const diagnosis::Diagnosis& diagnosis);

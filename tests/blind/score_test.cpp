@@ -159,6 +159,20 @@ TEST_F(Score, CountsWhatAnIdealObserverCannotTellApartAsOne) {
   EXPECT_LT(s.all_by_class.log_score, s.all.log_score);
 }
 
+TEST_F(Score, WhatAReplayDoesNotTellFromNoneIsOneWithIt) {
+  const json promise = {{"promise",
+                         {{"effects",
+                           {{"missing_bridges", {{"cases", 10}, {"told_from_none", 4}}},
+                            {"platen_tilt", {{"cases", 10}, {"told_from_none", 5}}}}}}}};
+  for (const char* name : {"c1", "c4"}) add_to_report(reports / name, promise);
+  const auto all = verdicts(open_seals(folder / "split"), reports);
+  EXPECT_TRUE(is_right(all[0], "none", Counting::by_class));
+  EXPECT_FALSE(is_right(all[0], "none", Counting::by_name));
+  EXPECT_FALSE(is_right(all[0], "platen_tilt", Counting::by_class));
+  EXPECT_TRUE(is_right(all[3], "missing_bridges", Counting::by_class));
+  EXPECT_FALSE(is_right(all[3], "platen_tilt", Counting::by_class));
+}
+
 TEST_F(Score, PairsAreAlikeWhereWhatStandsForWhatIsNear) {
   report(reports / "c7", {claim("missing_bridges", 0.9), claim("none", 0.1)}, {"missing_bridges"});
   add_to_report(reports / "c7", separation());

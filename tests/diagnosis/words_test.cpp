@@ -88,6 +88,14 @@ TEST(Verdict, SaysPlainlyWhenItDoesNotKnow) {
   EXPECT_FALSE(says(told({missing(0.7), tilt}, 2), "not known"));
 }
 
+TEST(Verdict, TellsLimitsToTwoDigits) {
+  Diagnosis d = told({bare("none", 0.98)}, 1);
+  d.unseen = {{"voxel_scale", "fraction", 0.06427}, {"platen_friction", "1", 1.4694}};
+  EXPECT_TRUE(
+      says(d, "hardly show wrong voxel size up to 6.4 % and platen friction other than stated up to 1.5."))
+      << verdict_of(d);
+}
+
 TEST(Verdict, LongSetsAreCutShort) {
   const Diagnosis d = told({missing(0.6), bare("platen_tilt", 0.1), bare("bond_damage", 0.1),
                             bare("none", 0.1), bare("unknown", 0.1)},
