@@ -100,8 +100,10 @@ void run(const Options& options) {
     if (const auto beliefs = diagnosis::read_beliefs(options.file)) return plan(options, *beliefs);
   const auto experiment = diagnosis::read_experiment(options.file);
   diagnosis::require_features(experiment);
-  for (const auto& warning : experiment.warnings) warn(warning);
-  if (options.dry_run) return tell_cost(options, experiment);
+  if (options.dry_run) {
+    for (const auto& warning : experiment.warnings) warn(warning);
+    return tell_cost(options, experiment);
+  }
   const fs::path beads = options.making.store_folder(options.common) / "measured";
   const auto bank = diagnosis::plan_bank(experiment, bank_options(options), beads);
   make_folder(options.common.out);
@@ -113,6 +115,7 @@ void run(const Options& options) {
   const viz::Display display;
   diagnosis_report::write_report_folder({options.common.out, display}, found);
   say(found.verdict);
+  for (const auto& warning : found.warnings) warn(warning);
 }
 
 }  // namespace
