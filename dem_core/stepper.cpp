@@ -37,6 +37,17 @@ std::uint64_t place_on_curve(const Vec3& from_corner, double cell) {
   return place;
 }
 
+/// Appends full blocks of pairs so that pairs that follow each other in their order, and share a bead, are in
+/// blocks that follow each other: additions to one sum wait for each other. Pairs stay near their place.
+void append_apart(const std::vector<std::int64_t>& ordered, std::vector<std::int64_t>& to) {
+  constexpr std::size_t kSpread = 16;
+  for (std::size_t first = 0; first < ordered.size(); first += kSpread * kBlock) {
+    const std::size_t blocks = std::min(kSpread, (ordered.size() - first) / kBlock);
+    for (std::size_t b = 0; b < blocks; ++b)
+      for (std::size_t lane = 0; lane < kBlock; ++lane) to.push_back(ordered[first + lane * blocks + b]);
+  }
+}
+
 void put(double* row, const Vec3& v) {
   for (int axis = 0; axis < 3; ++axis) row[axis] = v[axis];
 }
@@ -122,8 +133,8 @@ void Stepper::cut_chunks() {
   pair_of_.clear();
   const auto append = [&](std::vector<std::int64_t>& group) {
     std::sort(group.begin(), group.end(), by_row);
-    pair_of_.insert(pair_of_.end(), group.begin(), group.end());
-    pair_of_.resize(filled_up(pair_of_.size()), -1);
+    group.resize(filled_up(group.size()), -1);
+    append_apart(group, pair_of_);
     return pair_of_.size() / kBlock;
   };
   std::size_t contacts = 0;
