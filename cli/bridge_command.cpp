@@ -11,6 +11,7 @@
 #include "base/progress.h"
 #include "base/sample.h"
 #include "cli/command.h"
+#include "cli/picture_commands.h"
 #include "micromechanics/bridge_fe.h"
 #include "micromechanics/stiffness.h"
 #include "reproduction/paper.h"
@@ -302,15 +303,7 @@ void run(const Options& options) {
 
 void add_bridge(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  auto* command = app.add_subcommand(
-      "bridge",
-      "Stiffness of one polymer bridge between two beads by finite elements: normal, tangential, bending "
-      "and\n"
-      "twisting, with an estimate of the relative error, and the stress per metre of extension.\n"
-      "Values come from the options, else from the sample, else from sample A of Hemmerle et al. 2021. Each "
-      "option\n"
-      "takes a number, a comma list, or a range FROM:TO:N; all combinations are computed.\n"
-      "Without anything: the paper's Table 1 beside this program.");
+  auto* command = add_picture_command(app, "bridge");
   command->add_option("sample", options->sample, "Sample file (.toml)");
   command->add_option("--d-um", options->neck_um, "Bridge diameter d, um");
   command->add_option("--gap-um", options->gap_um, "Gap between the beads' surfaces, um");

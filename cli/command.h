@@ -29,6 +29,9 @@ void set_command_line(const std::vector<std::string>& words);
 /// Version, command line and seed of this run, and the hashes of its input files.
 Provenance provenance(const Common& common, const std::vector<fs::path>& inputs);
 
+/// Adds the commands that a program has, in the order of its help; each program has its own.
+void add_commands(CLI::App& app);
+
 /// Each adds its command to the program; the command runs from the parse callback and throws Error.
 void add_demo(CLI::App& app);
 void add_phantom(CLI::App& app);
@@ -43,7 +46,7 @@ void add_sweep(CLI::App& app);
 void add_reproduce(CLI::App& app);
 void add_diagnose(CLI::App& app);
 void add_blind(CLI::App& app);
-void add_sweep_run(CLI::App& app);  // the process of one run; not for users
+void add_sweep_run(CLI::App& app);   // the process of one run; not for users
 void add_blind_case(CLI::App& app);  // the process of one case; not for users
 void add_pipette(CLI::App& app);
 void add_track(CLI::App& app);

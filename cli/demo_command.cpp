@@ -4,6 +4,7 @@
 #include "base/sample.h"
 #include "cli/command.h"
 #include "cli/embedded.h"
+#include "cli/picture_commands.h"
 #include "cli/program.h"
 #include "packing/comparison.h"
 #include "packing/tables.h"
@@ -85,9 +86,7 @@ void run(const Common& common) {
 }  // namespace
 
 void add_demo(CLI::App& app) {
-  auto* command = app.add_subcommand("demo",
-                                     "The whole chain on the embedded sample: phantom tomogram, beads, "
-                                     "packing, compression, pictures, report");
+  auto* command = add_picture_command(app, "demo");
   auto common = std::make_shared<Common>();
   add_common(*command, *common, "Folder for everything the demo makes", "demo");
   command->callback([common] { run(*common); });

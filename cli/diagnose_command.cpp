@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "base/temporary_folder.h"
 #include "cli/command.h"
+#include "cli/picture_commands.h"
 #include "cli/run_making.h"
 #include "diagnosis/diagnose.h"
 #include "diagnosis/feature_values.h"
@@ -122,13 +123,7 @@ void run(const Options& options) {
 
 void add_diagnose(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  auto* command = app.add_subcommand(
-      "diagnose",
-      "Where simulation and experiment part, which effect causes it, and how far it shrinks once that is "
-      "added.\n"
-      "Reads an experiment file with its observations; writes diagnosis.json, report.html, figures and "
-      "tables.\n"
-      "The same command goes on where it stopped; runs are kept and shared by content (--store).");
+  auto* command = add_picture_command(app, "diagnose");
   command->add_option("file", options->file, "Experiment file (.toml)")->required();
   command->add_flag("--dry-run", options->dry_run, "Say how many runs there are and how long they take");
   command->add_flag("--no-fresh-runs", options->no_fresh_runs,

@@ -4,6 +4,7 @@
 #include "base/progress.h"
 #include "base/sample.h"
 #include "cli/command.h"
+#include "cli/picture_commands.h"
 #include "packing/bridges.h"
 #include "packing/generate.h"
 #include "packing/vtp.h"
@@ -54,8 +55,7 @@ void run(const PhantomOptions& options) {
 
 void add_phantom(CLI::App& app) {
   auto options = std::make_shared<PhantomOptions>();
-  auto* command = app.add_subcommand(
-      "phantom", "A synthetic tomogram with known truth: point spread, noise, polymer, container");
+  auto* command = add_picture_command(app, "phantom");
   command->add_option("sample", options->sample, "SAMPLE.toml; its [phantom] says how the tomogram looks")
       ->required();
   command->add_option("--truth", options->truth,

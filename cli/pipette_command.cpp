@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "cli/command.h"
+#include "cli/picture_commands.h"
 #include "pipette/measure.h"
 #include "pipette/overlay.h"
 #include "pipette/report.h"
@@ -96,18 +97,7 @@ void run(const PipetteOptions& options) {
 
 void add_pipette(CLI::App& app) {
   auto options = std::make_shared<PipetteOptions>();
-  auto* command =
-      app.add_subcommand("pipette",
-                         "Micropipette test of one bridge: images to force, displacement and stiffness.\n"
-                         "The wafer with the fixed bead is moved; the free bead hangs on the pipette, whose "
-                         "deflection times its\n"
-                         "stiffness is the force. Writes time_s,displacement_um,force_n,score,used, and "
-                         "beside it the stiffness with\n"
-                         "its interval (.json) and a plot (.png). Positions in the image are in pixels, x to "
-                         "the right, y down, the\n"
-                         "upper left pixel at (0, 0). Without a linear range the curve is kept, the "
-                         "stiffness is null and the exit\n"
-                         "status is 3.");
+  auto* command = add_picture_command(app, "pipette");
   command
       ->add_option("frames", options->frames,
                    "Video, folder of numbered images, or their names with a * (8 or 16 bits; colour is "

@@ -9,32 +9,16 @@
 namespace pendular::cli {
 namespace {
 
-void add_commands(CLI::App& app) {
-  app.set_version_flag("--version", program_version());
-  app.require_subcommand(1);
-  app.get_formatter()->column_width(36);
-  add_demo(app);
-  add_phantom(app);
-  add_segment(app);
-  add_track(app);
-  add_pack(app);
-  add_bridge(app);
-  add_compress(app);
-  add_modulus(app);
-  add_render(app);
-  add_convert(app);
-  add_pipette(app);
-  add_sweep(app);
-  add_reproduce(app);
-  add_diagnose(app);
-  add_blind(app);
-  add_sweep_run(app);
-  add_blind_case(app);
-}
-
 CLI::App new_app() {
   return CLI::App("From a tomogram of bonded beads to its stiffness, its failure, and the reason why.",
                   "pendular");
+}
+
+void prepare(CLI::App& app) {
+  app.set_version_flag("--version", program_version());
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(36);
+  add_commands(app);
 }
 
 void parse(CLI::App& app, const std::vector<std::string>& words) {
@@ -57,13 +41,13 @@ int fail(int status, std::string line) {
 
 void run_command_line(const std::vector<std::string>& words) {
   CLI::App app = new_app();
-  add_commands(app);
+  prepare(app);
   parse(app, words);
 }
 
 int run_program(const std::vector<std::string>& words) {
   CLI::App app = new_app();
-  add_commands(app);
+  prepare(app);
   try {
     parse(app, words);
     return 0;

@@ -4,6 +4,7 @@
 
 #include "base/progress.h"
 #include "cli/command.h"
+#include "cli/picture_commands.h"
 #include "viz/render_run.h"
 #include "viz/report.h"
 #include "viz/scene.h"
@@ -37,8 +38,7 @@ void render(Options& options) {
 
 void add_render(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  auto* command =
-      app.add_subcommand("render", "Off-screen pictures, a film of the failure and a report of a run folder");
+  auto* command = add_picture_command(app, "render");
   command
       ->add_option("run", options->run,
                    "Run folder of `pendular compress`; of several realisations the first is drawn "

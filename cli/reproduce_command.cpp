@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "cli/command.h"
+#include "cli/picture_commands.h"
 #include "cli/run_making.h"
 #include "reproduction/sections.h"
 #include "sweep/tables.h"
@@ -107,10 +108,7 @@ void run(const Options& options) {
 
 void add_reproduce(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  auto* command = app.add_subcommand(
-      "reproduce",
-      "Figures and numbers of Hemmerle et al. 2021 beside this program's: makes the sweeps of a folder\n"
-      "(samples/hemmerle2021) and writes report.md, pictures, and the tables behind them.");
+  auto* command = add_picture_command(app, "reproduce");
   command->add_option("folder", options->folder, "Folder of sweep files")
       ->required()
       ->check(CLI::ExistingDirectory);

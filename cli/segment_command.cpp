@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "cli/command.h"
+#include "cli/picture_commands.h"
 #include "packing/bridges.h"
 #include "packing/tables.h"
 #include "segmentation/qa.h"
@@ -133,11 +134,7 @@ void run(const Options& options) {
 
 void add_segment(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  auto* command = app.add_subcommand(
-      "segment",
-      "Raw tomogram to beads and candidate bridges.\n"
-      "Axis order x, y, z; voxel i has its centre at origin + i x spacing. Lengths in the header of a\n"
-      "MetaImage or NRRD count as um (an NRRD may name another unit); TIFF and PNG need --voxel-um.");
+  auto* command = add_picture_command(app, "segment");
   command
       ->add_option("volume", options->volume,
                    "MetaImage, NRRD, multi-page TIFF, folder of TIFF, PNG or DICOM slices, GE phoenix .pcr "

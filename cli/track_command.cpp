@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "cli/command.h"
+#include "cli/picture_commands.h"
 #include "packing/bridges.h"
 #include "packing/statistics.h"
 #include "packing/tables.h"
@@ -169,19 +170,7 @@ void run(const Options& options) {
 
 void add_track(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  auto* command = app.add_subcommand(
-      "track",
-      "Beads of one specimen followed from a scan to the next: displacement and local strain.\n"
-      "The second scan may be turned by any angle, shifted, and drifted in scale by some 2 %: its frame is\n"
-      "found from the beads alone. Displacements are in the frame of the first scan, whose z axis is the\n"
-      "specimen's, once rotation, shift and scale are removed. Beads' diameters tell the scale from strain\n"
-      "where both tables state their errors, else --strain, else a lateral expansion of 0.3 +- 0.2 of the\n"
-      "compression. The table serves `pendular diagnose` as an observation of kind displacements; its "
-      "column\n"
-      "state says which beads came loose. A summary goes beside it as .json: the registration, and the "
-      "beads\n"
-      "that are loose, lost or new. Status 3 where the second scan shows another specimen, or this one in a\n"
-      "mirror.");
+  auto* command = add_picture_command(app, "track");
   command->add_option("before", options->before, "Beads of the first scan (beads.csv), ten or more")
       ->required();
   command->add_option("after", options->after, "Beads of the second scan (beads.csv), ten or more")

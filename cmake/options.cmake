@@ -17,6 +17,12 @@ if(CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
 endif()
 
+# Shared objects that programs load where they need them.
+include(GNUInstallDirs)
+set(PENDULAR_MODULES ${PROJECT_BINARY_DIR}/modules)
+set(CMAKE_BUILD_RPATH ${PENDULAR_MODULES})
+set(CMAKE_INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR}/pendular)
+
 add_library(pendular_flags INTERFACE)
 target_compile_options(pendular_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
                        # Results must not depend on how a compiler contracts a*b+c.

@@ -51,9 +51,8 @@ HWY_INLINE Triple<Real> carried(const Triple<Real>& slip, const Triple<Real>& n,
 /// what slid, as the leapfrog scheme does work.
 template <typename Real>
 HWY_INLINE Real limit_slip(const Triple<Real>& before, Triple<Real>& slip, Real k, Real limit) {
-  const Real squared = dot(slip, slip), zero = same(0.0, k);
+  const Real squared = dot(slip, slip);
   const auto over = k * k * squared > limit * limit;
-  if (!any(over)) return zero;
   const Real share = select(over, limit / (k * square_root(squared)), same(1.0, k));
   const Triple<Real> kept = share * slip;
   const Real lost = same(0.5, k) * k * dot(before + kept, slip - kept);

@@ -43,9 +43,6 @@ HWY_INLINE bool both(bool a, bool b) {
 HWY_INLINE bool either(bool a, bool b) {
   return a || b;
 }
-HWY_INLINE bool any(bool a) {
-  return a;
-}
 HWY_INLINE double same(double value, double /*like*/) {
   return value;
 }
@@ -127,6 +124,10 @@ HWY_INLINE Triple<Real> operator+(const Triple<Real>& a, const Triple<Real>& b) 
 template <typename Real>
 HWY_INLINE Triple<Real> operator-(const Triple<Real>& a, const Triple<Real>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <typename Real>
+HWY_INLINE Triple<Real> operator-(const Triple<Real>& a) {
+  return {-a.x, -a.y, -a.z};
 }
 template <typename Real>
 HWY_INLINE Triple<Real> operator*(Real s, const Triple<Real>& a) {

@@ -24,6 +24,16 @@ struct PairMotion {
   Real radii;             ///< R_i + R_j
 };
 
+/// How a pair moves, seen along and across its line of centres.
+template <typename Real>
+struct PairApproach {
+  Triple<Real> n;        ///< from j to i
+  Triple<Real> sliding;  ///< velocity of i's surface against j's, normal to n
+  Real gap;              ///< δn
+  Real closing;          ///< velocity of i against j along n
+  Real twist;            ///< mean rotation of both beads about n in the step, rad
+};
+
 /// What a pair remembers between steps.
 template <typename Real>
 struct PairMemory {
@@ -39,35 +49,41 @@ struct PairAction {
   Triple<Real> force;    ///< on bead i; minus this on bead j
   Triple<Real> couple;   ///< n × F^t; the torque on either bead is minus its arm times this
   Triple<Real> moment;   ///< of bending on bead i; minus this on bead j
-  Real half_gap;         ///< arm of a bead: its radius + half_gap, so that both meet in mid-gap
   Real damped, slipped;  ///< energy lost in the step, J
 };
 
-/// Advances the pair's springs by the motion of one time step and returns its force. `may_touch` false: the
-/// glass of these pairs is known to be apart.
+/// What of two beads' motion the law is about.
 ///
 /// The arms end in mid-gap, not on the surfaces as in the paper's eq. 2: only then does a pair that turns as
 /// a rigid body feel no shear, and angular momentum is conserved.
-template <bool may_touch, typename Real>
-HWY_INLINE PairAction<Real> advance_pair(const PairMotion<Real>& motion, const PairData<Real>& pair,
-                                         const LawNumbers<Real>& law, LawParts parts,
-                                         PairMemory<Real>& memory) {
-  const Real zero = same(0.0, motion.radii), half = same(0.5, motion.radii);
-  const Triple<Real> nowhere = {zero, zero, zero};
+template <typename Real>
+HWY_INLINE PairApproach<Real> approach(const PairMotion<Real>& motion, const LawNumbers<Real>& law) {
+  PairApproach<Real> pair;
   const Real distance = square_root(dot(motion.apart, motion.apart));
-  const Real gap = distance - motion.radii;
+  pair.gap = distance - motion.radii;
+  pair.n = (same(1.0, distance) / distance) * motion.apart;
+  pair.closing = dot(motion.velocity, pair.n);
+  const Real half_gap = same(0.5, distance) * pair.gap;
+  const Triple<Real> surface =
+      cross_add(pair.n, mul_add(half_gap, motion.spin, motion.rolling), motion.velocity);
+  pair.sliding = neg_mul_add(dot(surface, pair.n), pair.n, surface);
+  pair.twist = law.half_dt * dot(motion.spin, pair.n);
+  return pair;
+}
+
+/// Advances a pair's springs by the motion of one time step and returns its force. `may_touch` false: the
+/// glass of these pairs is known to be apart. `motion` is read where the law has bending.
+template <bool may_touch, typename Real>
+HWY_INLINE PairAction<Real> advance_pair(const PairApproach<Real>& seen, const PairMotion<Real>& motion,
+                                         const PairData<Real>& pair, const LawNumbers<Real>& law,
+                                         LawParts parts, PairMemory<Real>& memory) {
+  const auto& [n, sliding, gap, closing, spin] = seen;
+  const Real zero = same(0.0, gap);
+  const Triple<Real> nowhere = {zero, zero, zero};
   const auto bonded = pair.kn > zero;
   const auto touching = gap <= pair.touch;
-  const Triple<Real> n = (same(1.0, gap) / distance) * motion.apart;
 
   PairAction<Real> out;
-  out.half_gap = half * gap;
-  const Real closing = dot(motion.velocity, n);
-  const Triple<Real> surface =
-      cross_add(n, mul_add(out.half_gap, motion.spin, motion.rolling), motion.velocity);
-  const Triple<Real> sliding = neg_mul_add(dot(surface, n), n, surface);
-  const Real spin = law.half_dt * dot(motion.spin, n);
-
   Real normal = bond_force(gap, pair);
   Triple<Real> tangential = nowhere;
   out.slipped = zero;
@@ -95,15 +111,13 @@ HWY_INLINE PairAction<Real> advance_pair(const PairMotion<Real>& motion, const P
     tangential = -pair.kt * memory.bond_slip;
     if (may_touch) {
       const Triple<Real> last = memory.contact_slip;
-      if (any(either(touching, dot(last, last) > zero))) {
-        const Real glass = contact_force(gap, pair.touch, law.k_glass);
-        normal = normal + glass;
-        Triple<Real> slip_now = mul_add(law.dt, sliding, carried(last, n, spin));
-        // Once apart the limit is zero: what the spring still held is lost.
-        out.slipped = out.slipped + limit_slip(last, slip_now, law.kt_glass, law.friction * glass);
-        memory.contact_slip = slip_now;
-        tangential = neg_mul_add(law.kt_glass, slip_now, tangential);
-      }
+      const Real glass = contact_force(gap, pair.touch, law.k_glass);
+      normal = normal + glass;
+      Triple<Real> slip_now = mul_add(law.dt, sliding, carried(last, n, spin));
+      // Once apart the limit is zero: what the spring still held is lost.
+      out.slipped = out.slipped + limit_slip(last, slip_now, law.kt_glass, law.friction * glass);
+      memory.contact_slip = slip_now;
+      tangential = neg_mul_add(law.kt_glass, slip_now, tangential);
     }
   }
 

@@ -6,7 +6,6 @@
 namespace pendular {
 
 using PairHistory = HWY_NAMESPACE::PairMemory<double>;
-using PairForce = HWY_NAMESPACE::PairAction<double>;
 using HWY_NAMESPACE::Triple;
 
 inline Triple<double> triple(const Vec3& v) {
@@ -29,6 +28,10 @@ struct BeadMotion {
   double radius;
 };
 
+struct PairForce : HWY_NAMESPACE::PairAction<double> {
+  double half_gap;  ///< arm of a bead: its radius + half_gap, so that both meet in mid-gap
+};
+
 /// Advances the pair's springs by the motion of one time step and returns its force.
 inline PairForce advance_pair(const BeadMotion& i, const BeadMotion& j, const PairProperties& pair,
                               const LawParameters& law, double dt, PairHistory& history) {
@@ -38,7 +41,9 @@ inline PairForce advance_pair(const BeadMotion& i, const BeadMotion& j, const Pa
                                                     triple(i.spin + j.spin),
                                                     triple(i.spin - j.spin),
                                                     i.radius + j.radius};
-  return HWY_NAMESPACE::advance_pair<true>(motion, pair, numbers(law, dt), parts(law), history);
+  const auto seen = HWY_NAMESPACE::approach(motion, numbers(law, dt));
+  return {HWY_NAMESPACE::advance_pair<true>(seen, motion, pair, numbers(law, dt), parts(law), history),
+          0.5 * seen.gap};
 }
 
 /// Torques of a pair's force on its beads, N m.

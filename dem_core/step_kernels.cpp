@@ -14,72 +14,12 @@
 #include "hwy/highway.h"
 //
 #include "dem_core/pair-inl.h"
+#include "dem_core/rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pendular {
 namespace HWY_NAMESPACE {
 namespace {
-
-/// Rows of four numbers: x, y, z and one more. A register may hold a whole row or half of it.
-using Row = hn::CappedTag<double, 4>;
-
-/// Blocks taken at a time: the motion and the forces of their pairs stay in the first-level cache between
-/// three loops.
-constexpr std::size_t kBatch = 4;
-
-/// The motion of a batch of pairs and what they do, a row of four per pair. Arrays are apart by an odd number
-/// of cache lines, so that they do not compete for the same places in the cache.
-struct Batch {
-  static constexpr std::size_t kSize = 4 * kBatch * kBlock + 8;
-  HWY_ALIGN double apart[kSize], velocity[kSize], rolling[kSize], spin[kSize], turning[kSize];
-  HWY_ALIGN double force[kSize], torque_i[kSize], torque_j[kSize];
-};
-
-template <bool bending>
-HWY_INLINE void read_motion(const PairBlock& block, const double* HWY_RESTRICT rows, std::size_t at,
-                            Batch& batch) {
-  const Row row;
-  for (std::size_t p = 0; p < kBlock; ++p, at += 4) {
-    const double* HWY_RESTRICT a = rows + block.i[p];
-    const double* HWY_RESTRICT b = rows + block.j[p];
-    const auto radius_a = hn::Set(row, a[3]), radius_b = hn::Set(row, b[3]);
-    for (std::size_t c = 0; c < 4; c += hn::Lanes(row)) {
-      hn::Store(hn::Sub(hn::Load(row, a + c), hn::Load(row, b + c)), row, batch.apart + at + c);
-      hn::Store(hn::Sub(hn::Load(row, a + 4 + c), hn::Load(row, b + 4 + c)), row, batch.velocity + at + c);
-      const auto spin_a = hn::Load(row, a + 8 + c), spin_b = hn::Load(row, b + 8 + c);
-      hn::Store(hn::MulAdd(radius_a, spin_a, hn::Mul(radius_b, spin_b)), row, batch.rolling + at + c);
-      hn::Store(hn::Add(spin_a, spin_b), row, batch.spin + at + c);
-      if (bending) hn::Store(hn::Sub(spin_a, spin_b), row, batch.turning + at + c);
-    }
-  }
-}
-
-/// Adds what the pairs of a block do to the sums of their beads.
-HWY_INLINE void add_to_beads(const PairBlock& block, double* sums, std::size_t at, const Batch& batch) {
-  const Row row;
-  for (std::size_t p = 0; p < kBlock; ++p, at += 4) {
-    double* a = sums + block.sum_i[p];
-    double* b = sums + block.sum_j[p];
-    for (std::size_t c = 0; c < 4; c += hn::Lanes(row)) {
-      const auto force = hn::Load(row, batch.force + at + c);
-      hn::Store(hn::Add(hn::Load(row, a + c), force), row, a + c);
-      hn::Store(hn::Sub(hn::Load(row, b + c), force), row, b + c);
-      hn::Store(hn::Add(hn::Load(row, a + 4 + c), hn::Load(row, batch.torque_i + at + c)), row, a + 4 + c);
-      hn::Store(hn::Add(hn::Load(row, b + 4 + c), hn::Load(row, batch.torque_j + at + c)), row, b + 4 + c);
-    }
-  }
-}
-
-/// Four numbers per pair, from rows.
-HWY_INLINE Triple<Lanes> columns(const double* HWY_RESTRICT rows, Lanes& fourth) {
-  Triple<Lanes> t;
-  hn::LoadInterleaved4(Lanes::Tag(), rows, t.x.v, t.y.v, t.z.v, fourth.v);
-  return t;
-}
-
-HWY_INLINE void to_rows(const Triple<Lanes>& t, Lanes fourth, double* HWY_RESTRICT rows) {
-  hn::StoreInterleaved4(t.x.v, t.y.v, t.z.v, fourth.v, Lanes::Tag(), rows);
-}
 
 using Floats = hn::Rebind<float, Lanes::Tag>;
 
@@ -94,6 +34,102 @@ HWY_INLINE void store(Lanes value, double* to) {
 }
 HWY_INLINE void store(Lanes value, float* to) {
   hn::Store(hn::DemoteTo(Floats(), value.v), Floats(), to);
+}
+
+/// Blocks taken at a time, in three loops that leave each other a number of each pair in the first-level
+/// cache: how pairs move, what they do, and to which beads. Several pairs of such a short loop are under way
+/// in a core at once, where one pair's whole way is a chain of operations that wait for each other.
+constexpr std::size_t kBatch = 4;
+
+struct Batch {
+  using Column = double[kBatch * kBlock];
+  struct Columns3 {
+    HWY_ALIGN Column x, y, z;
+  };
+  Columns3 n, sliding;
+  HWY_ALIGN Column gap, closing, twist;
+  HWY_ALIGN Column arm_i, arm_j;  ///< minus the arms: half gap and radius
+  Columns3 spin, turning;         ///< where the law has bending
+  Columns3 force, couple, moment;
+};
+
+HWY_INLINE void store(const Triple<Lanes>& t, Batch::Columns3& to, std::size_t at) {
+  const Lanes::Tag tag;
+  hn::Store(t.x.v, tag, to.x + at), hn::Store(t.y.v, tag, to.y + at), hn::Store(t.z.v, tag, to.z + at);
+}
+HWY_INLINE Triple<Lanes> load(const Batch::Columns3& from, std::size_t at) {
+  const Lanes::Tag tag;
+  return {{hn::Load(tag, from.x + at)}, {hn::Load(tag, from.y + at)}, {hn::Load(tag, from.z + at)}};
+}
+
+/// Puts into the batch, from `at` on, how the pairs of a block move, from `lane` on.
+template <bool bending>
+HWY_INLINE void read_motion(const PairBlock& block, std::size_t lane, const BeadTable& beads,
+                            const LawNumbers<Lanes>& law, Batch& batch, std::size_t at) {
+  const double* HWY_RESTRICT bead = beads.motion.data();
+  const double* HWY_RESTRICT spin = beads.spin.data();
+  const std::uint32_t *i = block.i + lane, *j = block.j + lane;
+#if HWY_MAX_BYTES == 64
+  Columns apart, velocity;
+  differences(bead, i, j, apart, velocity);
+#else
+  const Columns apart = differences(bead, i, j), velocity = differences(bead + 4, i, j);
+#endif
+  const Columns spin_i = columns_of(spin, i), spin_j = columns_of(spin, j);
+  const Lanes difference = apart.fourth;
+  PairMotion<Lanes> motion;
+  motion.apart = apart.xyz;
+  motion.velocity = velocity.xyz;
+  motion.rolling = mul_add(spin_i.fourth, spin_i.xyz, spin_j.fourth * spin_j.xyz);
+  motion.spin = spin_i.xyz + spin_j.xyz;
+  motion.radii = spin_i.fourth + spin_j.fourth;
+
+  const PairApproach<Lanes> seen = approach(motion, law);
+  store(seen.n, batch.n, at), store(seen.sliding, batch.sliding, at);
+  store(seen.gap, batch.gap + at), store(seen.closing, batch.closing + at),
+      store(seen.twist, batch.twist + at);
+  const Lanes half = same(0.5, difference);
+  const Lanes mean = neg_mul_add(half, motion.radii, -(half * seen.gap));
+  store(neg_mul_add(half, difference, mean), batch.arm_i + at);
+  store(mul_add(half, difference, mean), batch.arm_j + at);
+  if (bending) store(motion.spin, batch.spin, at), store(spin_i.xyz - spin_j.xyz, batch.turning, at);
+}
+
+/// Adds what pairs do to the sums of their beads, one pair after the other.
+template <bool bending>
+HWY_INLINE void add_to_beads(const PairBlock& block, std::size_t lane, const Batch& batch, std::size_t at,
+                             double* sums) {
+  const Triple<Lanes> force = load(batch.force, at), couple = load(batch.couple, at);
+  Triple<Lanes> torque_i = load(batch.arm_i + at) * couple, torque_j = load(batch.arm_j + at) * couple;
+  if (bending) {
+    const Triple<Lanes> moment = load(batch.moment, at);
+    torque_i = torque_i + moment, torque_j = torque_j - moment;
+  }
+  const std::uint32_t *i = block.sum_i + lane, *j = block.sum_j + lane;
+#if HWY_MAX_BYTES == 64
+  const Lanes::Tag tag;
+  LanesOf on_i[kLanes], on_j[kLanes];
+  to_rows(force, torque_i, on_i);
+  to_rows(-force, torque_j, on_j);
+  for (std::size_t p = 0; p < kLanes; ++p) {
+    hn::Store(hn::Add(hn::Load(tag, sums + i[p]), on_i[p]), tag, sums + i[p]);
+    hn::Store(hn::Add(hn::Load(tag, sums + j[p]), on_j[p]), tag, sums + j[p]);
+  }
+#else
+  const Row row;
+  LanesOf on_i[kLanes][kParts], turning_i[kLanes][kParts], turning_j[kLanes][kParts];
+  to_rows(force, on_i);
+  to_rows(torque_i, turning_i);
+  to_rows(torque_j, turning_j);
+  for (std::size_t p = 0; p < kLanes; ++p)
+    for (std::size_t part = 0, c = 0; part < kParts; ++part, c += kLanes) {
+      double *a = sums + i[p] + c, *b = sums + j[p] + c;
+      hn::Store(hn::Add(hn::Load(row, a), on_i[p][part]), row, a);
+      hn::Store(hn::Add(hn::Load(row, a + 4), turning_i[p][part]), row, a + 4);
+      hn::Store(hn::Sub(hn::Load(row, b), on_i[p][part]), row, b);
+      hn::Store(hn::Add(hn::Load(row, b + 4), turning_j[p][part]), row, b + 4);
+    }
+#endif
 }
 
 /// Appends the pairs whose lane is set; `first` is the number of the first lane's pair.
@@ -114,19 +150,16 @@ struct Losses {
   Lanes damped, slipped;
 };
 
-/// Advances as many pairs of a block as a register holds, from `lane` on; their rows of the batch begin at
-/// `at`.
+/// Advances the pairs of a block from `lane` on, whose columns of the batch begin at `at`. Returns which
+/// bonds break.
 template <bool may_touch, bool bending>
 HWY_INLINE LaneMask advance_lanes(PairBlock& block, ContactBlock* contact, BendBlock* bend, std::size_t lane,
-                                  std::size_t at, const Constants& given, Batch& batch, Losses& losses) {
-  const Lanes zero = {hn::Zero(Lanes::Tag())}, half = same(0.5, zero);
+                                  const Constants& given, Batch& batch, std::size_t at, Losses& losses) {
+  const Lanes zero = {hn::Zero(Lanes::Tag())};
+  const PairApproach<Lanes> seen = {load(batch.n, at), load(batch.sliding, at), load(batch.gap + at),
+                                    load(batch.closing + at), load(batch.twist + at)};
   PairMotion<Lanes> motion;
-  Lanes unused, difference;
-  motion.apart = columns(batch.apart + at, difference);
-  motion.velocity = columns(batch.velocity + at, unused);
-  motion.rolling = columns(batch.rolling + at, unused);
-  motion.spin = columns(batch.spin + at, motion.radii);
-  if (bending) motion.turning = columns(batch.turning + at, unused);
+  if (bending) motion.spin = load(batch.spin, at), motion.turning = load(batch.turning, at);
 
   PairData<Lanes> data;
   PairMemory<Lanes> memory;
@@ -146,7 +179,7 @@ HWY_INLINE LaneMask advance_lanes(PairBlock& block, ContactBlock* contact, BendB
 
   LawParts parts = given.parts;
   parts.bending = bending;
-  const PairAction<Lanes> action = advance_pair<may_touch>(motion, data, given.law, parts, memory);
+  const PairAction<Lanes> action = advance_pair<may_touch>(seen, motion, data, given.law, parts, memory);
 
   const Triple<Lanes>& slip = memory.bond_slip;
   store(slip.x, block.slip_x + lane), store(slip.y, block.slip_y + lane), store(slip.z, block.slip_z + lane);
@@ -161,18 +194,11 @@ HWY_INLINE LaneMask advance_lanes(PairBlock& block, ContactBlock* contact, BendB
     store(turn.x, bend->turn_x + lane), store(turn.y, bend->turn_y + lane),
         store(turn.z, bend->turn_z + lane);
   }
-  // Minus the arms: half gap and radius.
-  const Lanes mean = neg_mul_add(half, motion.radii, -action.half_gap);
-  const Lanes arm_i = neg_mul_add(half, difference, mean), arm_j = mul_add(half, difference, mean);
-  Triple<Lanes> torque_i = arm_i * action.couple, torque_j = arm_j * action.couple;
-  if (bending) torque_i = torque_i + action.moment, torque_j = torque_j - action.moment;
-  to_rows(action.force, zero, batch.force + at);
-  to_rows(torque_i, zero, batch.torque_i + at);
-  to_rows(torque_j, zero, batch.torque_j + at);
+  store(action.force, batch.force, at), store(action.couple, batch.couple, at);
+  if (bending) store(action.moment, batch.moment, at);
   losses.damped = losses.damped + action.damped;
   losses.slipped = losses.slipped + action.slipped;
-  const Lanes gap = action.half_gap + action.half_gap;
-  return both(data.kn > zero, breaks(gap, memory.bond_slip, data));
+  return both(data.kn > zero, breaks(seen.gap, memory.bond_slip, data));
 }
 
 template <bool may_touch, bool bending>
@@ -188,20 +214,25 @@ void advance(PairTable& pairs, BeadTable& beads, std::size_t first, std::size_t 
   PairBlock* const blocks = pairs.blocks.data();
   ContactBlock* const contacts = pairs.contacts.data() + chunk.first_contact - chunk.touchable;
   BendBlock* const bends = pairs.bends.data();
-  double *const rows = beads.rows.data(), *const sums = beads.sums.data();
   Batch batch;
   for (std::size_t begin = first; begin < last; begin += kBatch) {
     const std::size_t end = std::min(begin + kBatch, last);
-    for (std::size_t b = begin; b < end; ++b)
-      read_motion<bending>(blocks[b], rows, 4 * kBlock * (b - begin), batch);
-    for (std::size_t b = begin; b < end; ++b)
-      for (std::size_t lane = 0; lane < kBlock; lane += hn::Lanes(tag)) {
-        const LaneMask breaking = advance_lanes<may_touch, bending>(
-            blocks[b], may_touch ? contacts + b : nullptr, bending ? bends + b : nullptr, lane,
-            4 * (kBlock * (b - begin) + lane), given, batch, losses);
-        if (any(breaking)) note_breaks(breaking, kBlock * b + lane, chunk);
-      }
-    for (std::size_t b = begin; b < end; ++b) add_to_beads(blocks[b], sums, 4 * kBlock * (b - begin), batch);
+    const auto for_lanes = [&](const auto& body) {
+      for (std::size_t b = begin, at = 0; b < end; ++b)
+        for (std::size_t lane = 0; lane < kBlock; lane += kLanes, at += kLanes) body(b, lane, at);
+    };
+    for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
+      read_motion<bending>(blocks[b], lane, beads, given.law, batch, at);
+    });
+    for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
+      const LaneMask breaking =
+          advance_lanes<may_touch, bending>(blocks[b], may_touch ? contacts + b : nullptr,
+                                            bending ? bends + b : nullptr, lane, given, batch, at, losses);
+      if (any(breaking)) note_breaks(breaking, kBlock * b + lane, chunk);
+    });
+    for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
+      add_to_beads<bending>(blocks[b], lane, batch, at, beads.sums.data());
+    });
   }
   chunk.damped += hn::GetLane(hn::SumOfLanes(tag, losses.damped.v));
   chunk.slipped += hn::GetLane(hn::SumOfLanes(tag, losses.slipped.v));
@@ -226,9 +257,9 @@ void collect(BeadTable& beads, const Chunk& chunk) {
   const Row row;
   double* HWY_RESTRICT sums = beads.sums.data();
   for (const auto& incoming : chunk.incoming)
-    for (std::size_t c = 0; c < kSumRow; c += hn::Lanes(row)) {
-      double* HWY_RESTRICT from = sums + kSumRow * static_cast<std::size_t>(incoming.from) + c;
-      double* HWY_RESTRICT to = sums + kSumRow * static_cast<std::size_t>(incoming.to) + c;
+    for (std::size_t c = 0; c < kBeadRow; c += hn::Lanes(row)) {
+      double* HWY_RESTRICT from = sums + kBeadRow * static_cast<std::size_t>(incoming.from) + c;
+      double* HWY_RESTRICT to = sums + kBeadRow * static_cast<std::size_t>(incoming.to) + c;
       hn::Store(hn::Add(hn::Load(row, to), hn::Load(row, from)), row, to);
       hn::Store(hn::Zero(row), row, from);
     }
@@ -246,16 +277,17 @@ void MoveBeads(BeadTable& beads, Chunk& chunk, double dt) {
     const auto moving = hn::Mul(step, hn::Load(row, moves + c));
     auto reach = hn::Zero(listed_row);
     for (std::size_t k = chunk.first_bead; k < chunk.last_bead; ++k) {
-      double* HWY_RESTRICT bead = beads.rows.data() + kBeadRow * k;
-      double* HWY_RESTRICT sums = beads.sums.data() + kSumRow * k;
+      double* HWY_RESTRICT bead = beads.motion.data() + kBeadRow * k;
+      double* HWY_RESTRICT turning = beads.spin.data() + kBeadRow * k;
+      double* HWY_RESTRICT sums = beads.sums.data() + kBeadRow * k;
       const auto velocity =
           hn::MulAdd(hn::Set(row, bead[7]), hn::Load(row, sums + c), hn::Load(row, bead + 4 + c));
-      const auto spin = hn::MulAdd(hn::Set(row, beads.step_over_inertia[k]), hn::Load(row, sums + 4 + c),
-                                   hn::Load(row, bead + 8 + c));
+      const auto spin =
+          hn::MulAdd(hn::Set(row, turning[4]), hn::Load(row, sums + 4 + c), hn::Load(row, turning + c));
       const auto position = hn::MulAdd(moving, velocity, hn::Load(row, bead + c));
       hn::Store(position, row, bead + c);
       hn::Store(velocity, row, bead + 4 + c);
-      hn::Store(spin, row, bead + 8 + c);
+      hn::Store(spin, row, turning + c);
       hn::Store(hn::Zero(row), row, sums + c);
       hn::Store(hn::Zero(row), row, sums + 4 + c);
       const float* HWY_RESTRICT listed = beads.listed_rows.data() + 4 * k;

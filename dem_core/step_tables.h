@@ -17,7 +17,7 @@ using BlockOf = T[kBlock];
 
 /// Eight pairs. Where a group has fewer left, pairs that never act fill the block up.
 struct alignas(64) PairBlock {
-  BlockOf<std::uint32_t> i, j;          ///< where their beads' rows begin in BeadTable::rows
+  BlockOf<std::uint32_t> i, j;          ///< where their beads' rows begin in BeadTable::motion and spin
   BlockOf<std::uint32_t> sum_i, sum_j;  ///< where the rows they add to begin in BeadTable::sums
   BlockOf<float> kn, kt, break_limit, closing;
   BlockOf<double> rest, slip_x, slip_y, slip_z;
@@ -39,14 +39,15 @@ struct PairTable {
   AlignedVector<BendBlock> bends;        ///< of all blocks, where the law has bending
 };
 
-constexpr std::uint32_t kBeadRow = 12, kSumRow = 8;
+/// Numbers in a row of a bead's motion, spin or sums: a cache line.
+constexpr std::uint32_t kBeadRow = 8;
 
 /// Beads as the kernels read them.
 struct BeadTable {
   std::size_t size = 0;
-  AlignedVector<double> rows;               ///< x y z R | vx vy vz dt/m | ωx ωy ωz R
-  AlignedVector<double> step_over_inertia;  ///< dt/I
-  AlignedVector<float> listed_rows;         ///< x y z when the pairs were listed, 1/margin
+  AlignedVector<double> motion;      ///< x y z R | vx vy vz dt/m
+  AlignedVector<double> spin;        ///< ωx ωy ωz R | dt/I and three of no meaning
+  AlignedVector<float> listed_rows;  ///< x y z when the pairs were listed, 1/margin
   /// Force and 0 | torque and 0: a row per bead, which its own chunk adds to, then those that other chunks
   /// add to.
   AlignedVector<double> sums;
@@ -64,9 +65,14 @@ struct Chunk {
     std::uint32_t from, to;
   };
   std::vector<Incoming> incoming;
-  std::vector<std::size_t> targets;      ///< chunks whose beads this one adds to; itself one of them
-  int sources = 0;                       ///< number of chunks that have this one as a target
-  std::vector<std::size_t> near_platen;  ///< beads that a platen may touch before the next listing
+  /// A bead that platens may touch before the next listing, and which.
+  struct NearPlaten {
+    std::size_t row;
+    bool bottom, top;
+  };
+  std::vector<std::size_t> targets;  ///< chunks whose beads this one adds to; itself one of them
+  int sources = 0;                   ///< number of chunks that have this one as a target
+  std::vector<NearPlaten> near_platen;
 
   // What the chunk adds to the sums over the specimen in one step.
   double damped = 0.0, slipped = 0.0, bottom = 0.0, top = 0.0;

@@ -37,6 +37,17 @@ std::uint64_t place_on_curve(const Vec3& from_corner, double cell) {
   return place;
 }
 
+/// Appends full blocks of pairs so that pairs that follow each other in their order, and share a bead, are in
+/// blocks that follow each other: additions to one sum wait for each other. Pairs stay near their place.
+void append_apart(const std::vector<std::int64_t>& ordered, std::vector<std::int64_t>& to) {
+  constexpr std::size_t kSpread = 16;
+  for (std::size_t first = 0; first < ordered.size(); first += kSpread * kBlock) {
+    const std::size_t blocks = std::min(kSpread, (ordered.size() - first) / kBlock);
+    for (std::size_t b = 0; b < blocks; ++b)
+      for (std::size_t lane = 0; lane < kBlock; ++lane) to.push_back(ordered[first + lane * blocks + b]);
+  }
+}
+
 void put(double* row, const Vec3& v) {
   for (int axis = 0; axis < 3; ++axis) row[axis] = v[axis];
 }
@@ -79,19 +90,20 @@ void Stepper::load_beads() {
   const auto& beads = simulation_.beads;
   const std::size_t size = beads_.size = beads.size();
   // Two more rows, apart by one metre, are the beads of the pairs that fill up blocks.
-  beads_.rows.assign(kBeadRow * (size + 2), 0.0);
-  beads_.rows[kBeadRow * (size + 1)] = 1.0;
+  beads_.motion.assign(kBeadRow * (size + 2), 0.0);
+  beads_.motion[kBeadRow * (size + 1)] = 1.0;
+  beads_.spin.assign(kBeadRow * (size + 2), 0.0);
   beads_.listed_rows.assign(4 * size, 0.0F);
-  beads_.step_over_inertia.assign(size, 0.0);
   for (std::size_t row = 0; row < size; ++row) {
     const std::size_t k = bead_of_[row];
-    double* bead = &beads_.rows[kBeadRow * row];
+    double* bead = &beads_.motion[kBeadRow * row];
+    double* spin = &beads_.spin[kBeadRow * row];
     put(bead, beads.position[k]);
     put(bead + 4, beads.velocity[k]);
-    put(bead + 8, beads.spin[k]);
-    bead[3] = bead[11] = beads.radius[k];
+    put(spin, beads.spin[k]);
+    bead[3] = spin[3] = beads.radius[k];
     bead[7] = simulation_.dt / beads.mass[k];
-    beads_.step_over_inertia[row] = simulation_.dt / beads.inertia[k];
+    spin[4] = simulation_.dt / beads.inertia[k];
     float* listed = &beads_.listed_rows[4 * row];
     for (int axis = 0; axis < 3; ++axis) listed[axis] = static_cast<float>(simulation_.listing.at[k][axis]);
     listed[3] = static_cast<float>(1.0 / simulation_.listing.margin[k]);
@@ -121,8 +133,8 @@ void Stepper::cut_chunks() {
   pair_of_.clear();
   const auto append = [&](std::vector<std::int64_t>& group) {
     std::sort(group.begin(), group.end(), by_row);
-    pair_of_.insert(pair_of_.end(), group.begin(), group.end());
-    pair_of_.resize(filled_up(pair_of_.size()), -1);
+    group.resize(filled_up(group.size()), -1);
+    append_apart(group, pair_of_);
     return pair_of_.size() / kBlock;
   };
   std::size_t contacts = 0;
@@ -218,13 +230,13 @@ void Stepper::share_sums() {
       const bool fills_up = pair_of_[p] < 0;
       PairBlock& block = pairs_.blocks[p / kBlock];
       const std::size_t at = p % kBlock;
-      block.sum_i[at] = kSumRow * (fills_up ? nowhere : place(block.i[at] / kBeadRow));
-      block.sum_j[at] = kSumRow * (fills_up ? nowhere : place(block.j[at] / kBeadRow));
+      block.sum_i[at] = kBeadRow * (fills_up ? nowhere : place(block.i[at] / kBeadRow));
+      block.sum_j[at] = kBeadRow * (fills_up ? nowhere : place(block.j[at] / kBeadRow));
     }
     chunks_[c].targets.assign(targets.begin(), targets.end());
     for (const std::size_t target : targets) ++chunks_[target].sources;
   }
-  beads_.sums.assign(kSumRow * static_cast<std::size_t>(next), 0.0);
+  beads_.sums.assign(kBeadRow * static_cast<std::size_t>(next), 0.0);
 }
 
 void Stepper::find_beads_near_platens() {
@@ -233,16 +245,16 @@ void Stepper::find_beads_near_platens() {
     for (std::size_t row = chunk.first_bead; row < chunk.last_bead; ++row) {
       const std::size_t k = bead_of_[row];
       const double z = beads_.listed_rows[4 * row + 2];
-      const double reach = beads_.rows[kBeadRow * row + 3] + listing.margin[k] + listing.platen_margin;
-      if (z - reach + simulation_.bottom.relief[k] <= listing.bottom_at ||
-          z + reach - simulation_.top.relief[k] >= listing.top_at)
-        chunk.near_platen.push_back(row);
+      const double reach = beads_.motion[kBeadRow * row + 3] + listing.margin[k] + listing.platen_margin;
+      const bool bottom = z - reach + simulation_.bottom.relief[k] <= listing.bottom_at;
+      const bool top = z + reach - simulation_.top.relief[k] >= listing.top_at;
+      if (bottom || top) chunk.near_platen.push_back({row, bottom, top});
     }
 }
 
 BeadMotion Stepper::motion(std::size_t row) const {
-  const double* bead = &beads_.rows[kBeadRow * row];
-  return {get(bead), get(bead + 4), get(bead + 8), bead[3]};
+  const double* bead = &beads_.motion[kBeadRow * row];
+  return {get(bead), get(bead + 4), get(&beads_.spin[kBeadRow * row]), bead[3]};
 }
 
 void Stepper::store() {
@@ -275,9 +287,9 @@ void Stepper::step() {
 double Stepper::kinetic_energy() const {
   double energy = 0.0;
   for (std::size_t row = 0; row < beads_.size; ++row) {
-    const double* bead = &beads_.rows[kBeadRow * row];
+    const double *bead = &beads_.motion[kBeadRow * row], *spin = &beads_.spin[kBeadRow * row];
     energy += 0.5 * simulation_.dt * get(bead + 4).squaredNorm() / bead[7];
-    energy += 0.5 * simulation_.dt * get(bead + 8).squaredNorm() / beads_.step_over_inertia[row];
+    energy += 0.5 * simulation_.dt * get(spin).squaredNorm() / spin[4];
   }
   return energy;
 }
@@ -291,10 +303,10 @@ void Stepper::halt() {
   platen.z -= simulation_.dt * platen.velocity;
   platen.velocity = 0.0;
   for (std::size_t row = 0; row < beads_.size; ++row) {
-    double* bead = &beads_.rows[kBeadRow * row];
+    double* bead = &beads_.motion[kBeadRow * row];
     put(bead, get(bead) - simulation_.dt * get(bead + 4));
     put(bead + 4, Vec3::Zero());
-    put(bead + 8, Vec3::Zero());
+    put(&beads_.spin[kBeadRow * row], Vec3::Zero());
   }
 }
 
@@ -304,7 +316,7 @@ void Stepper::set_in_motion(double speed, const std::function<Vec3(const Vec3&)>
   simulation_.work.platen += 0.5 * simulation_.dt * platen.force * speed;
   platen.z += simulation_.dt * speed;
   for (std::size_t row = 0; row < beads_.size; ++row) {
-    double* bead = &beads_.rows[kBeadRow * row];
+    double* bead = &beads_.motion[kBeadRow * row];
     const Vec3 v = velocity(get(bead));
     put(bead + 4, v);
     put(bead, get(bead) + simulation_.dt * v);
@@ -352,12 +364,15 @@ void Stepper::change_bonds(const BondEvolution& evolution, double elapsed) {
 }
 
 void Stepper::press_platens(Chunk& chunk) {
-  for (const std::size_t row : chunk.near_platen) {
+  for (const auto& [row, bottom, top] : chunk.near_platen) {
     const BeadMotion bead = motion(row);
     const std::size_t k = bead_of_[row];
-    const PlatenForce below = touch_platen(simulation_.bottom, k, bead, simulation_.law, simulation_.dt);
-    const PlatenForce above = touch_platen(simulation_.top, k, bead, simulation_.law, simulation_.dt);
-    double* sums = &beads_.sums[kSumRow * row];
+    const auto touched = [&](Platen& platen) {
+      return touch_platen(platen, k, bead, simulation_.law, simulation_.dt);
+    };
+    const PlatenForce below = bottom ? touched(simulation_.bottom) : PlatenForce{};
+    const PlatenForce above = top ? touched(simulation_.top) : PlatenForce{};
+    double* sums = &beads_.sums[kBeadRow * row];
     put(sums, get(sums) + below.force + above.force);
     put(sums + 4, get(sums + 4) + below.torque + above.torque);
     chunk.bottom += below.normal;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/own_program.h"
 #include "sweep/store.h"
 
 namespace pendular::sweep {
@@ -18,8 +19,8 @@ struct SlurmOptions {
 struct ExecuteOptions {
   int cores = 0;              ///< of this machine, shared between runs; 0: as many as threads may be used
   bool retry_failed = false;  ///< make runs anew that have failed before
-  std::optional<SlurmOptions> slurm;    ///< send the runs to Slurm instead
-  fs::path program = "/proc/self/exe";  ///< pendular, which makes each run in a process of its own
+  std::optional<SlurmOptions> slurm;  ///< send the runs to Slurm instead
+  fs::path program = own_program();   ///< pendular, which makes each run in a process of its own
   std::function<void(std::size_t done, std::size_t failed, std::size_t total)> progress;
 };
 

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace pendular::cli {
+
+/// Commands that read or draw pictures need libraries (ITK, OpenCV, VTK's rendering) that take longer to load
+/// than many a run of a bank takes. They are in a program of their own, `pendular-pictures`, which `pendular`
+/// becomes.
+bool is_picture_command(const std::string& name);
+
+/// Adds one of them, with what the help says of it; its options are for `pendular-pictures` to add.
+CLI::App* add_picture_command(CLI::App& app, const std::string& name);
+
+}  // namespace pendular::cli
