@@ -55,10 +55,11 @@ void tell_cost(const Options& options, const diagnosis::Experiment& experiment) 
 }
 
 void run(const Options& options) {
-  apply(options.common);
+  apply(options.common, {options.file});
   check(options.making);
   const auto experiment = diagnosis::read_experiment(options.file);
   diagnosis::require_features(experiment);
+  protect_also(inputs_of(options, experiment));
   for (const auto& warning : experiment.warnings) warn(warning);
   if (options.dry_run) return tell_cost(options, experiment);
   const fs::path beads = options.making.store_folder(options.common) / "measured";

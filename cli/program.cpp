@@ -1,9 +1,13 @@
 #include "cli/program.h"
 
-#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
 #include <new>
 
 #include "base/error.h"
+#include "base/text_line.h"
 #include "cli/command.h"
 
 namespace pendular::cli {
@@ -46,11 +50,16 @@ void parse(CLI::App& app, const std::vector<std::string>& words) {
       std::vector<std::string>(words.rbegin(), words.rend()));  // the library takes them last word first
 }
 
-int fail(int status, std::string line) {
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  fmt::print(stderr, "pendular: {}\n", line);
+int fail(int status, const std::string& line) {
+  std::fputs((text_line("pendular: " + line) + '\n').c_str(), stderr);
   return status;
+}
+
+/// What was printed may still wait for a disc that is full.
+int printed() {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::cout && std::ferror(stdout) == 0) return 0;
+  return fail(4, fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
 }
 
 }  // namespace
@@ -66,9 +75,10 @@ int run_program(const std::vector<std::string>& words) {
   add_commands(app);
   try {
     parse(app, words);
-    return 0;
+    return printed();
   } catch (const CLI::Success& wanted) {  // help or version
-    return app.exit(wanted);
+    app.exit(wanted);
+    return printed();
   } catch (const CLI::Error& error) {
     return fail(2, std::string(error.what()) + " (see pendular --help)");
   } catch (const Error& error) {
