@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/columns.h"
 #include "base/error.h"
 
 namespace pendular {
@@ -46,6 +47,7 @@ std::string CsvTable::where(std::size_t row) const {
 
 std::vector<double> CsvTable::numbers(const std::string& column, bool empty_is_nan) const {
   const auto& cells = cells_.at(column);
+  const Range range = range_of(column);
   std::vector<double> values(cells.size());
   for (std::size_t row = 0; row < cells.size(); ++row) {
     if (empty_is_nan && cells[row].empty()) {
@@ -53,8 +55,7 @@ std::vector<double> CsvTable::numbers(const std::string& column, bool empty_is_n
       continue;
     }
     values[row] = parse<double>(cells[row], where(row), column, "a number");
-    if (!std::isfinite(values[row]))
-      bad_input("{}: column {}: found {}, expected a finite number", where(row), column, cells[row]);
+    require_in_range(where(row), "column " + column, range, values[row]);
   }
   return values;
 }
@@ -101,6 +102,10 @@ CsvTable read_csv(const fs::path& path, const std::vector<std::string>& required
 
 std::string csv_cell(double value) {
   return std::isfinite(value) ? fmt::format("{}", value) : "";
+}
+
+std::string csv_cell(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "";
 }
 
 std::string csv_cell(const std::string& text) {

@@ -16,8 +16,8 @@ class CsvTable {
   std::size_t rows() const { return lines_.size(); }
   bool has(const std::string& column) const { return cells_.count(column) != 0; }
 
-  /// A column as numbers; BadInput naming file, line and column for a cell that is none.
-  /// An empty cell is NaN where `empty_is_nan`.
+  /// A column as numbers; BadInput naming file, line and column for a cell that is none, or one that is not
+  /// in the column's range (base/columns.h). An empty cell is NaN where `empty_is_nan`.
   std::vector<double> numbers(const std::string& column, bool empty_is_nan = false) const;
   std::vector<long long> integers(const std::string& column) const;
   const std::vector<std::string>& texts(const std::string& column) const { return cells_.at(column); }
@@ -39,6 +39,7 @@ CsvTable read_csv(const fs::path& path, const std::vector<std::string>& required
 /// A cell of a table that is written: a number as short as it reads back the same, empty where it is not
 /// finite; a text quoted where it must be, its line breaks made spaces.
 std::string csv_cell(double value);
+std::string csv_cell(double value, int digits);  ///< so many significant ones at most
 std::string csv_cell(const std::string& text);
 
 }  // namespace pendular

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <openssl/evp.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +11,10 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -23,16 +28,59 @@ fs::path temporary_beside(const fs::path& path) {
          fmt::format(".{}.{}.tmp{}", path.stem().string(), ::getpid(), path.extension().string());
 }
 
-/// Flushes a finished file to the disc, which is where a full disc is noticed at the latest.
-void sync_to_disc(const fs::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY);
+/// Flushes a finished file, or the names in a folder, to the disc, which is where a full disc is noticed at
+/// the latest.
+void sync_to_disc(const fs::path& path, const fs::path& said) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0)
-    throw ComputationFailed(fmt::format("{}: was not written: {}", path.string(), std::strerror(errno)));
+    throw ComputationFailed(fmt::format("{}: was not written: {}", said.string(), std::strerror(errno)));
   const int failed = ::fsync(descriptor);
   const int why = errno;
   ::close(descriptor);
-  if (failed != 0)
-    throw ComputationFailed(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(why)));
+  if (failed != 0 && why != EINVAL && why != EROFS)  // file systems without it
+    throw ComputationFailed(fmt::format("{}: cannot be written: {}", said.string(), std::strerror(why)));
+}
+
+using Identity = std::pair<dev_t, ino_t>;
+
+std::optional<Identity> identity_of(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return Identity(status.st_dev, status.st_ino);
+}
+
+/// What this process has to keep in mind of its files.
+struct Files {
+  std::mutex mutex;
+  std::set<Identity> inputs;
+  bool together = false;
+  std::vector<std::pair<fs::path, fs::path>> unnamed;  ///< temporary and final name
+};
+
+Files& files() {
+  static Files all;
+  return all;
+}
+
+bool is_input(const fs::path& path) {
+  const auto identity = identity_of(path);
+  const std::lock_guard lock(files().mutex);
+  return identity && files().inputs.count(*identity) != 0;
+}
+
+void require_no_input(const fs::path& path) {
+  if (is_input(path))
+    throw BadUsage(
+        fmt::format("{}: is an input of this command, expected another file to write", path.string()));
+}
+
+/// A regular file, a link to one, or nothing yet.
+void require_file_name(const fs::path& path) {
+  std::error_code error;
+  const auto status = fs::status(path, error);
+  if (fs::is_directory(status)) bad_input("{}: is a folder, expected a file name to write", path.string());
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    bad_input("{}: is a device, expected a file name to write", path.string());
 }
 
 class Sha256 {
@@ -64,14 +112,24 @@ void add_file(Sha256& hash, const fs::path& path) {
 
 }  // namespace
 
+void rename_durably(const fs::path& from, const fs::path& to) {
+  fs::rename(from, to);
+  sync_to_disc(to.has_parent_path() ? to.parent_path() : fs::path("."), to);
+}
+
 void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-  if (fs::is_directory(path)) bad_input("{}: is a folder, expected a file name to write", path.string());
+  require_file_name(path);
+  require_no_input(path);
   const fs::path temporary = temporary_beside(path);
   std::error_code ignored;
   try {
     write(temporary);
-    sync_to_disc(temporary);
-    fs::rename(temporary, path);
+    sync_to_disc(temporary, path);
+    const std::lock_guard lock(files().mutex);
+    if (files().together)
+      files().unnamed.emplace_back(temporary, path);
+    else
+      rename_durably(temporary, path);
   } catch (const Error&) {
     fs::remove(temporary, ignored);
     throw;
@@ -79,6 +137,73 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
     fs::remove(temporary, ignored);
     throw ComputationFailed(fmt::format("{}: cannot be written: {}", path.string(), error.what()));
   }
+}
+
+WrittenTogether::WrittenTogether() {
+  const std::lock_guard lock(files().mutex);
+  if (std::exchange(files().together, true)) throw std::logic_error("WrittenTogether: there is one already");
+}
+
+WrittenTogether::~WrittenTogether() {
+  const std::lock_guard lock(files().mutex);
+  std::error_code ignored;
+  for (const auto& [temporary, path] : files().unnamed) fs::remove(temporary, ignored);
+  files().unnamed.clear();
+  files().together = false;
+}
+
+void WrittenTogether::commit() {
+  const std::lock_guard lock(files().mutex);
+  for (const auto& [temporary, path] : std::exchange(files().unnamed, {})) {
+    try {
+      rename_durably(temporary, path);
+    } catch (const fs::filesystem_error& error) {
+      throw ComputationFailed(fmt::format("{}: cannot be written: {}", path.string(), error.what()));
+    }
+  }
+}
+
+void protect_inputs(const std::vector<fs::path>& inputs) {
+  {
+    const std::lock_guard lock(files().mutex);
+    files().inputs.clear();
+  }
+  protect_also(inputs);
+}
+
+void protect_also(const std::vector<fs::path>& inputs) {
+  const std::lock_guard lock(files().mutex);
+  for (const auto& path : inputs)
+    if (const auto identity = identity_of(path)) files().inputs.insert(*identity);
+}
+
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.is_regular_file(error)) found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void require_outputs(const std::vector<fs::path>& outputs) {
+  std::set<fs::path> names;
+  std::set<Identity> there;
+  for (const auto& path : outputs) {
+    if (path.empty()) continue;
+    require_no_input(path);
+    std::error_code ignored;
+    const bool new_name = names.insert(fs::weakly_canonical(path, ignored)).second;
+    const auto identity = identity_of(path);
+    if (!new_name || (identity && !there.insert(*identity).second))
+      throw BadUsage(
+          fmt::format("{}: is to be written twice, expected a file for each output", path.string()));
+  }
+}
+
+void remove_output(const fs::path& path) {
+  require_no_input(path);
+  fs::remove(path);
 }
 
 void write_text(const fs::path& path, std::string_view text) {
@@ -107,11 +232,19 @@ void make_folder(const fs::path& path) {
     bad_input("{}: folder cannot be written: {}", path.string(), std::strerror(errno));
 }
 
+void make_inner_folder(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_symlink(path, error))
+    bad_input("{}: is a link to elsewhere, expected a folder of its own", path.string());
+  make_folder(path);
+}
+
 void require_writable(const fs::path& path) {
   if (path.empty()) return;
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder)) bad_input("{}: its folder does not exist", path.string());
-  if (fs::is_directory(path)) bad_input("{}: is a folder, expected a file name to write", path.string());
+  require_file_name(path);
+  require_no_input(path);
   if (::access(folder.c_str(), W_OK) != 0)
     bad_input("{}: its folder cannot be written: {}", path.string(), std::strerror(errno));
 }
@@ -123,6 +256,8 @@ void require_readable(const fs::path& path, bool folder_allowed) {
     if (!folder_allowed) bad_input("{}: is a folder, expected a file", path.string());
     return;
   }
+  if (!fs::is_regular_file(path, error))
+    bad_input("{}: is a device or a pipe, expected a file", path.string());
   if (::access(path.c_str(), R_OK) != 0)
     bad_input("{}: cannot be read: {}", path.string(), std::strerror(errno));
 }
@@ -139,11 +274,7 @@ std::string sha256_of(const fs::path& path) {
     add_file(hash, path);
     return hash.hex();
   }
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(path))
-    if (entry.is_regular_file()) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  for (const auto& file : files) {
+  for (const auto& file : files_in(path)) {
     const std::string name = file.filename().string();
     hash.add(name.data(), name.size());
     add_file(hash, file);

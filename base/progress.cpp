@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "base/text_line.h"
+
 namespace pendular {
 namespace {
 
@@ -42,7 +44,7 @@ void say(const std::string& line) {
 }
 
 void warn(const std::string& line) {
-  logger().warn("warning: " + line);
+  logger().warn(text_line("warning: " + line));
 }
 
 Progress::Progress(std::string what, double total)

@@ -12,7 +12,7 @@
 namespace pendular {
 
 const std::vector<NumberKey>& number_keys() {
-  const double inf = std::numeric_limits<double>::infinity();
+  const double most_n_per_m = 1e12, most_pa = 1e13;
   const double tiny = std::numeric_limits<double>::min();
   const double um = 1e-6, mm_s = 1e-3;
 #define PENDULAR_AT(field) [](Sample& s) -> double& { return s.field; }
@@ -38,9 +38,9 @@ const std::vector<NumberKey>& number_keys() {
        "interfacial energy G"},
       {"bridges.relaxation_time_s", 1, 1e-9, 1e9, PENDULAR_OPTIONAL(bridges.relaxation_time),
        "time in which the polymer relaxes, where an effect makes it"},
-      {"bridges.normal_stiffness_n_per_m", 1, tiny, inf, PENDULAR_OPTIONAL(bridges.normal_stiffness),
+      {"bridges.normal_stiffness_n_per_m", 1, tiny, most_n_per_m, PENDULAR_OPTIONAL(bridges.normal_stiffness),
        "bond stiffness kn"},
-      {"bridges.tangential_stiffness_n_per_m", 1, tiny, inf, PENDULAR_OPTIONAL(bridges.tangential_stiffness),
+      {"bridges.tangential_stiffness_n_per_m", 1, tiny, most_n_per_m, PENDULAR_OPTIONAL(bridges.tangential_stiffness),
        "bond stiffness kt"},
       {"contact.stiffness_ratio", 1, 0.01, 1e4, PENDULAR_AT(contact.stiffness_ratio), "k_glass over k_bond"},
       {"contact.friction", 1, 0.0, 10.0, PENDULAR_AT(contact.friction), "friction coefficient between beads"},
@@ -56,9 +56,9 @@ const std::vector<NumberKey>& number_keys() {
        "volume fraction of a generated packing"},
       {"compression.speed", 1, 1e-9, 0.1, PENDULAR_AT(compression.speed), "platen speed over D √(k_glass/m)"},
       {"compression.speed_mm_s", mm_s, 1e-9, 1e6, PENDULAR_OPTIONAL(compression.speed_si), "platen speed"},
-      {"compression.stress_rate_pa_s", 1, tiny, inf, PENDULAR_OPTIONAL(compression.stress_rate),
+      {"compression.stress_rate_pa_s", 1, tiny, most_pa, PENDULAR_OPTIONAL(compression.stress_rate),
        "rate of the stress ramp where control is \"stress\"; the platen goes no faster than the speed"},
-      {"compression.max_stress_pa", 1, tiny, inf, PENDULAR_OPTIONAL(compression.max_stress),
+      {"compression.max_stress_pa", 1, tiny, most_pa, PENDULAR_OPTIONAL(compression.max_stress),
        "stress at which the run ends"},
       {"compression.relax_increment", 1, 1e-6, 0.01, PENDULAR_AT(compression.relax_increment),
        "strain of an increment where control is \"relaxation\""},
@@ -138,6 +138,28 @@ const std::vector<SwitchKey>& switch_keys() {
       {"observe.damage", [](Sample& s) -> bool& { return s.observe.damage; }},
       {"observe.force_chains", [](Sample& s) -> bool& { return s.observe.force_chains; }},
   };
+  return keys;
+}
+
+const std::vector<std::string>& required_keys() {
+  static const std::vector<std::string> keys = {"beads.diameter_um",
+                                                "beads.diameter_sd_um",
+                                                "beads.density_kg_m3",
+                                                "bridges.youngs_modulus_pa",
+                                                "bridges.poisson_ratio",
+                                                "bridges.diameter_um",
+                                                "bridges.diameter_sd_um",
+                                                "bridges.gap_um",
+                                                "bridges.interfacial_energy_j_m2",
+                                                "contact.friction",
+                                                "specimen.diameter_um",
+                                                "specimen.height_um",
+                                                "compression.max_strain"};
+  return keys;
+}
+
+const std::vector<std::string>& later_keys() {
+  static const std::vector<std::string> keys = {"beads.diameters", "contact.bond_friction_limit"};
   return keys;
 }
 

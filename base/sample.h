@@ -130,10 +130,19 @@ using SampleSetting = std::pair<std::string, SampleValue>;
 std::vector<std::string> sample_key_names();
 
 /// Reads and checks a sample file. BadInput names file, line, key, what was found and what was expected;
-/// an unknown key names the nearest known one.
+/// an unknown key names the nearest known one, and a file that leaves out what a sample has to state
+/// (docs/sample.md) is told what that is. What only earlier versions leave out is warned of.
 Sample read_sample(const fs::path& path);
 
-/// The same from text; `name` stands for the file in messages. The settings count as if the text had them.
+/// The same from the file's text, changed by settings that count as if the text had them; `name` stands for the
+/// file in messages.
+Sample whole_sample(std::string_view text, const std::string& name,
+                    const std::vector<SampleSetting>& settings = {});
+
+/// Warns where a file's text leaves out what only samples of earlier versions do.
+void warn_of_later_keys(std::string_view text, const std::string& name);
+
+/// Of text that need not be whole: what it leaves out is as in sample A.
 Sample parse_sample(std::string_view text, const std::string& name,
                     const std::vector<SampleSetting>& settings = {});
 

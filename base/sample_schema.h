@@ -47,6 +47,12 @@ struct SwitchKey {
   bool& (*field)(Sample&);
 };
 
+/// Keys that a sample file has to state: what the specimen is and how far its test goes.
+const std::vector<std::string>& required_keys();
+
+/// Keys that samples of earlier versions do not state, though results depend on them.
+const std::vector<std::string>& later_keys();
+
 const std::vector<NumberKey>& number_keys();
 const std::vector<WordKey>& word_keys();
 const std::vector<StrainsKey>& strains_keys();

@@ -1,7 +1,10 @@
-#include <cmath>
+#include <fmt/ranges.h>
+
 #include <map>
+#include <set>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "base/sample.h"
 #include "base/sample_schema.h"
 #include "base/toml_place.h"
@@ -38,13 +41,23 @@ void check_together(const Sample& sample, const std::string& file) {
               sample.phantom.air_grey);
 }
 
-}  // namespace
-
-Sample parse_sample(std::string_view text, const std::string& name,
-                    const std::vector<SampleSetting>& settings) {
-  const toml::table root = parse_toml(text, name);
+/// A sample and the keys that were given for it.
+struct Given {
   Sample sample;
-  bool platen_friction_given = false;
+  std::set<std::string> keys;
+
+  std::vector<std::string> without(const std::vector<std::string>& asked) const {
+    std::vector<std::string> absent;
+    for (const auto& key : asked)
+      if (!keys.contains(key)) absent.push_back(key);
+    return absent;
+  }
+};
+
+Given given_in(std::string_view text, const std::string& name, const std::vector<SampleSetting>& settings) {
+  const toml::table root = parse_toml(text, name);
+  Given given;
+  Sample& sample = given.sample;
   for (const auto& [section, node] : root) {
     const auto* table = node.as_table();
     const std::string prefix(section.str());
@@ -54,21 +67,47 @@ Sample parse_sample(std::string_view text, const std::string& name,
     for (const auto& [key, value] : *table) {
       const TomlPlace place{name, prefix + "." + std::string(key.str()), value};
       set_sample_key(sample, place.name, value_at(place), place.str());
-      platen_friction_given |= place.name == "contact.platen_friction";
+      given.keys.insert(place.name);
     }
   }
   for (const auto& [key, value] : settings) {
     set_sample_key(sample, key, value, name + ": " + key);
-    platen_friction_given |= key == "contact.platen_friction";
+    given.keys.insert(key);
   }
   // The paper treats a platen "the same way as another particle" unless the experimenter knows better.
-  if (!platen_friction_given) sample.contact.platen_friction = sample.contact.friction;
+  if (!given.keys.contains("contact.platen_friction"))
+    sample.contact.platen_friction = sample.contact.friction;
   check_together(sample, name);
-  return sample;
+  return given;
+}
+
+}  // namespace
+
+Sample parse_sample(std::string_view text, const std::string& name,
+                    const std::vector<SampleSetting>& settings) {
+  return given_in(text, name, settings).sample;
+}
+
+Sample whole_sample(std::string_view text, const std::string& name,
+                    const std::vector<SampleSetting>& settings) {
+  const Given given = given_in(text, name, settings);
+  if (const auto absent = given.without(required_keys()); !absent.empty())
+    bad_input("{}: found no {}; expected a sample that states them (is the file cut short?)", name,
+              fmt::join(absent, ", "));
+  return given.sample;
+}
+
+void warn_of_later_keys(std::string_view text, const std::string& name) {
+  if (const auto absent = given_in(text, name, {}).without(later_keys()); !absent.empty())
+    warn(fmt::format("{}: lacks {}, as samples of earlier versions do: taken as docs/sample.md says", name,
+                     fmt::join(absent, " and ")));
 }
 
 Sample read_sample(const fs::path& path) {
-  return parse_sample(read_text(path), path.string());
+  const std::string text = read_text(path);
+  Sample sample = whole_sample(text, path.string());
+  warn_of_later_keys(text, path.string());
+  return sample;
 }
 
 namespace {

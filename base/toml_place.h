@@ -47,10 +47,16 @@ inline std::string type_name(const toml::node& node) {
   }
 }
 
+/// The nearest double of a number; the library has none for an integer that is between two of them.
+inline double nearest_double(const toml::node& number) {
+  const auto* integer = number.as_integer();
+  return integer ? static_cast<double>(integer->get()) : number.as_floating_point()->get();
+}
+
 inline double number_at(const TomlPlace& place) {
   if (!place.node.is_number())
     bad_input("{}: found {}, expected a number", place.str(), type_name(place.node));
-  const double value = place.node.value<double>().value();
+  const double value = nearest_double(place.node);
   if (!std::isfinite(value)) bad_input("{}: found {}, expected a finite number", place.str(), value);
   return value;
 }

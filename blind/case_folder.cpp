@@ -168,7 +168,7 @@ void make_case(const CaseFolders& folders, const Split& split, const CasePlan& p
   const std::string truth = sealed_json(split, plan, a.test.engine, noise).dump(2) + "\n";
   write_text(part / "seal.txt", fmt::format("{}  {}.json\n", sha256(truth), plan.name));
   write_text(folders.sealed(plan.name), truth);
-  fs::rename(part, done);
+  rename_durably(part, done);
   fs::remove_all(folders.work(plan.name));
 }
 

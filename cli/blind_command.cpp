@@ -24,7 +24,7 @@ struct MakeOptions {
 };
 
 void make(const MakeOptions& options) {
-  apply(options.common);
+  apply(options.common, {options.file});
   const blind::Split split = options.split();
   const blind::CaseFolders folders{options.common.out};
   if (options.dry_run) return say(blind::work_ahead(folders, split, thread_count()));
@@ -51,7 +51,7 @@ struct CaseOptions {
 };
 
 void make_one(const CaseOptions& options) {
-  apply(options.make.common);
+  apply(options.make.common, {options.make.file});
   const blind::Split split = options.make.split();
   const auto plans = blind::plan_of(split);
   if (options.number >= plans.size())
@@ -83,7 +83,7 @@ struct DiagnoseOptions {
 };
 
 void diagnose(DiagnoseOptions options, std::vector<std::string> further) {
-  apply(options.common);
+  apply(options.common, {});
   further.insert(further.end(), {"--threads", std::to_string(options.common.threads), "--seed",
                                  std::to_string(options.common.seed)});
   options.request.reports = options.common.out;
@@ -149,7 +149,7 @@ struct ScoreOptions {
 };
 
 void score(const ScoreOptions& options) {
-  apply(options.common);
+  apply(options.common, {});
   const auto truths = blind::open_seals(options.folder);
   const auto verdicts = blind::verdicts(truths, options.reports);
   if (verdicts.empty()) bad_input("{}: found no case to score", options.folder.string());

@@ -269,13 +269,12 @@ Provenance provenance_of(const Options& options) {
 }
 
 void run(const Options& options) {
-  apply(options.common);
+  apply(options.common, {options.sample}, {options.common.out, options.plot});
   if (options.paper && (options.has_values() || !options.sample.empty()))
     throw BadUsage("bridge: --paper goes without a sample and without values");
   if (!options.plot.empty() && options.plot.extension() != ".png")
     throw BadUsage(
         fmt::format("bridge: --plot: found {}, expected a name ending in .png", options.plot.string()));
-  for (const fs::path& out : {options.common.out, options.plot}) require_writable(out);
   const bool asks = options.paper || options.has_values() || !options.sample.empty();
   if (!asks && options.common.out.empty() && options.plot.empty()) return print_table_1();
 
@@ -285,11 +284,12 @@ void run(const Options& options) {
   warn_outside(rows);
   const Provenance where_from = provenance_of(options);
   const std::string csv = csv_of(rows, where_from);
+  WrittenTogether written;
   if (options.common.out.empty())
     fmt::print("{}", csv);
   else
     write_text(options.common.out, csv);
-  if (options.plot.empty()) return;
+  if (options.plot.empty()) return written.commit();
   const auto curves = curves_of(rows);
   const viz::Display display;
   std::optional<viz::MeasuredStiffness> measured;
@@ -297,6 +297,7 @@ void run(const Options& options) {
     measured = {kPaperPipette.normal_low, kPaperPipette.normal_high, kPaperPipette.tangential_low,
                 kPaperPipette.tangential_high};
   write_png(options.plot, draw_bridge_stiffness(display, curves, measured), to_comment(where_from));
+  written.commit();
 }
 
 }  // namespace

@@ -49,9 +49,16 @@ void add_common(CLI::App& command, Common& common, const std::string& out_help,
     out->capture_default_str();
 }
 
-void apply(const Common& common) {
+void apply(const Common& common, const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
   set_threads(common.threads);
   set_quiet(common.quiet);
+  protect_inputs(inputs);
+  require_outputs(outputs);
+  for (const auto& path : outputs) require_writable(path);
+}
+
+fs::path beside(const fs::path& out, const char* extension) {
+  return fs::path(out).replace_extension(extension);
 }
 
 Provenance provenance(const Common& common, const std::vector<fs::path>& inputs) {

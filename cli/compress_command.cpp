@@ -65,7 +65,7 @@ nlohmann::ordered_json ensemble(const std::vector<nlohmann::ordered_json>& resul
 }
 
 void run(const Options& options) {
-  apply(options.common);
+  apply(options.common, {options.packing, options.sample});
   const Packing packing = read_packing(options.packing);
   const Sample sample = read_sample(options.sample);
   effects::check_effects(sample, options.sample.string());
@@ -84,9 +84,11 @@ void run(const Options& options) {
         "would be the same; expected \"drawn\" in {}",
         sample.beads.diameters, options.sample.string()));
   std::vector<nlohmann::ordered_json> results;
+  make_folder(options.common.out);
   for (int k = 1; k <= options.realisations; ++k) {
     compress_options.provenance.seed = options.common.seed + static_cast<std::uint64_t>(k) - 1;
     const auto folder = options.common.out / fmt::format("realisation_{:02d}", k);
+    make_inner_folder(folder);
     results.push_back(effects::compress_with_effects(packing, sample, compress_options.provenance.seed,
                                                      folder, compress_options)
                           .result);

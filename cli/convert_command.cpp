@@ -37,22 +37,25 @@ Provenance provenance_for(const ConvertOptions& options, const std::vector<fs::p
 }
 
 void run(const ConvertOptions& options) {
-  apply(options.common);
   const fs::path out = output_of(options);
   const ExchangeFormat from = format_for(options.from, options.in), to = format_for(options.format, out);
+  const bool reads_bridges = from == ExchangeFormat::csv && !options.bridges.empty();
+  const bool writes_bridges = to == ExchangeFormat::csv && !reads_bridges && !options.bridges.empty();
+  apply(options.common, {options.in, reads_bridges ? options.bridges : fs::path()},
+        {out, writes_bridges ? options.bridges : fs::path()});
   std::optional<double> diameter;
   if (options.diameter_um) diameter = 1e-6 * *options.diameter_um;
   Packing packing = read_exchange(options.in, from, diameter);
   std::vector<fs::path> inputs = {options.in};
-  const bool reads_bridges = from == ExchangeFormat::csv && !options.bridges.empty();
   if (reads_bridges) {
     packing.bridges = read_bridges(options.bridges, packing.beads);
     inputs.push_back(options.bridges);
   }
   packing.provenance = provenance_for(options, inputs);
+  WrittenTogether written;
   write_exchange(out, to, packing, options.density);
-  if (to == ExchangeFormat::csv && !reads_bridges && !options.bridges.empty())
-    write_bridges(options.bridges, packing.beads, packing.bridges, packing.provenance);
+  if (writes_bridges) write_bridges(options.bridges, packing.beads, packing.bridges, packing.provenance);
+  written.commit();
 }
 
 }  // namespace

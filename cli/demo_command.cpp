@@ -54,7 +54,7 @@ viz::ReportSection segmentation_section(const BeadComparison& c, double voxel, c
 }
 
 void run(const Common& common) {
-  apply(common);
+  apply(common, {});
   const fs::path& out = common.out;
   make_folder(out);
   const auto in = [&](const char* name) { return (out / name).string(); };

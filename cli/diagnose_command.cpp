@@ -76,6 +76,7 @@ std::string in_words(const diagnosis::NextSteps& steps) {
 
 /// Before anything is measured.
 void plan(const Options& options, const diagnosis::Experiment& beliefs) {
+  protect_also({beliefs.sample_file});
   const TemporaryFolder scratch;
   const fs::path beads =
       options.dry_run ? scratch.path() : options.making.store_folder(options.common) / "measured";
@@ -95,12 +96,13 @@ void plan(const Options& options, const diagnosis::Experiment& beliefs) {
 }
 
 void run(const Options& options) {
-  apply(options.common);
+  apply(options.common, {options.file});
   check(options.making);
   if (options.plan)
     if (const auto beliefs = diagnosis::read_beliefs(options.file)) return plan(options, *beliefs);
   const auto experiment = diagnosis::read_experiment(options.file);
   diagnosis::require_features(experiment);
+  protect_also(inputs_of(options, experiment));
   if (options.dry_run) {
     for (const auto& warning : experiment.warnings) warn(warning);
     return tell_cost(options, experiment);

@@ -43,6 +43,7 @@ int become_pictures_program(char** words) {
 
 int main(int argc, char** argv) {
   using namespace pendular;
+  cli::open_standard_streams();
   if (argc > 1 && cli::is_picture_command(argv[1])) return cli::become_pictures_program(argv);
   catch_interrupts();
   return cli::run_program({argv + 1, argv + argc});

@@ -53,8 +53,7 @@ std::string in_words(const LinearResponse& response, double strain) {
 }
 
 void run(const Options& options) {
-  apply(options.common);
-  require_writable(options.common.out);
+  apply(options.common, {options.packing, options.sample}, {options.common.out});
   const Sample sample = read_sample(options.sample);
   effects::check_effects(sample, options.sample.string());
   const Packing packing = read_packing(options.packing);

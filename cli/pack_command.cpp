@@ -136,15 +136,14 @@ void report(const PackingStatistics& s) {
 }
 
 void run(const PackOptions& options) {
-  apply(options.common);
+  const fs::path& out = options.common.out;
+  apply(options.common, {options.beads, options.sample, options.bridges}, {out, beside(out, ".json")});
   if (options.generate != options.beads.empty())
     throw BadUsage("pack: expected either beads.csv or --generate");
   if (options.generate && !options.bridges.empty())
     throw BadUsage("pack: --bridges goes with measured beads");
-  if (options.common.out.extension() != ".vtp")
-    throw BadUsage(
-        fmt::format("pack: --out: found {}, expected a name ending in .vtp", options.common.out.string()));
-  require_writable(options.common.out);
+  if (out.extension() != ".vtp")
+    throw BadUsage(fmt::format("pack: --out: found {}, expected a name ending in .vtp", out.string()));
   const Sample sample = read_sample(options.sample);
   const auto measured = options.generate ? std::vector<Bead>{} : measured_beads(options, sample);
   Packing packing = packing_for(options, sample, measured);
@@ -164,8 +163,10 @@ void run(const PackOptions& options) {
   json["diameters"] = diameters;
   if (closed) json["closed_contacts"] = to_json(*closed);
   json["provenance"] = to_json(packing.provenance);
-  write_packing(options.common.out, packing);
-  write_text(fs::path(options.common.out).replace_extension(".json"), json.dump(2) + "\n");
+  WrittenTogether written;
+  write_packing(out, packing);
+  write_text(beside(out, ".json"), json.dump(2) + "\n");
+  written.commit();
   report(statistics);
   say(use_in_words(sample, diameters, closed));
 }

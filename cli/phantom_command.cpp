@@ -31,10 +31,9 @@ void require_extension(const char* option, const fs::path& path, const char* ext
 }
 
 void run(const PhantomOptions& options) {
-  apply(options.common);
+  apply(options.common, {options.sample, options.packing}, {options.common.out, options.truth});
   require_extension("--out", options.common.out, ".mha");
   if (!options.truth.empty()) require_extension("--truth", options.truth, ".vtp");
-  for (const fs::path& path : {options.common.out, options.truth}) require_writable(path);
   const Sample sample = read_sample(options.sample);
   const std::uint64_t seed = options.common.seed;
   std::vector<fs::path> inputs = {options.sample};
@@ -44,8 +43,10 @@ void run(const PhantomOptions& options) {
   packing.provenance = provenance(options.common, inputs);
 
   const Volume volume = make_phantom(packing, sample.phantom, seed);
+  WrittenTogether written;
   if (!options.truth.empty()) write_packing(options.truth, packing);
   write_volume(options.common.out, volume, packing.provenance);
+  written.commit();
   say(fmt::format("{} beads, {} bridges, {} x {} x {} voxels of {:.4g} um: {}", packing.beads.size(),
                   packing.bridges.size(), volume.size[0], volume.size[1], volume.size[2],
                   1e6 * volume.spacing, options.common.out.string()));

@@ -27,6 +27,7 @@ void add_commands(CLI::App& app) {
 }  // namespace pendular::cli
 
 int main(int argc, char** argv) {
+  pendular::cli::open_standard_streams();
   pendular::catch_interrupts();
   return pendular::cli::run_program({argv + 1, argv + argc});
 }

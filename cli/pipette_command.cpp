@@ -66,26 +66,29 @@ void report(const pipette::Measurement& m) {
 }
 
 void run(const PipetteOptions& options) {
-  apply(options.common);
   const fs::path& out = options.common.out;
   if (out.extension() != ".csv")
     throw BadUsage(fmt::format("pipette: --out: found {}, expected a name ending in .csv", out.string()));
   if (!options.film.empty() && options.film.extension() != ".mp4" && options.film.extension() != ".avi")
     throw BadUsage(fmt::format("pipette: --film: found {}, expected a name ending in .mp4 or .avi",
                                options.film.string()));
-  require_writable(out);
-  require_writable(options.film);
+  const std::vector<fs::path> outputs = {out, beside(out, ".json"), beside(out, ".png"), options.film};
+  apply(options.common, {options.calibration}, outputs);
+  protect_also(pipette::FrameSource(options.frames).files());
+  require_outputs(outputs);
   const pipette::Calibration calibration = pipette::read_calibration(options.calibration);
   const pipette::Measurement m = pipette::measure(options.frames, calibration);
   if (!options.check.empty()) make_folder(options.check);
   const Provenance origin =
       provenance(options.common, {pipette::FrameSource(options.frames).origin(), options.calibration});
 
-  write_text(fs::path(out).replace_extension(".json"), pipette::to_json(m, origin).dump(2) + "\n");
+  WrittenTogether written;
+  write_text(beside(out, ".json"), pipette::to_json(m, origin).dump(2) + "\n");
   write_text(out, pipette::to_csv(m, origin));
-  write_plot(fs::path(out).replace_extension(".png"), m, origin);
+  write_plot(beside(out, ".png"), m, origin);
   if (!options.check.empty()) pipette::write_check_pictures(options.check, options.frames, m);
   if (!options.film.empty()) pipette::write_film(options.film, options.frames, m);
+  written.commit();
   check_speed(m);
   report(m);
   if (!m.fit.stiffness)

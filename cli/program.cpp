@@ -1,9 +1,15 @@
 #include "cli/program.h"
 
-#include <algorithm>
+#include <fcntl.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
 #include <new>
 
 #include "base/error.h"
+#include "base/text_line.h"
 #include "cli/command.h"
 
 namespace pendular::cli {
@@ -30,14 +36,24 @@ void parse(CLI::App& app, const std::vector<std::string>& words) {
       std::vector<std::string>(words.rbegin(), words.rend()));  // the library takes them last word first
 }
 
-int fail(int status, std::string line) {
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  fmt::print(stderr, "pendular: {}\n", line);
+int fail(int status, const std::string& line) {
+  std::fputs((text_line("pendular: " + line) + '\n').c_str(), stderr);
   return status;
 }
 
+/// What was printed may still wait for a disc that is full.
+int printed() {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::cout && std::ferror(stdout) == 0) return 0;
+  return fail(4, fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
+}
+
 }  // namespace
+
+void open_standard_streams() {
+  for (const int stream : {0, 1, 2})
+    if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
+}
 
 void run_command_line(const std::vector<std::string>& words) {
   CLI::App app = new_app();
@@ -50,9 +66,10 @@ int run_program(const std::vector<std::string>& words) {
   prepare(app);
   try {
     parse(app, words);
-    return 0;
+    return printed();
   } catch (const CLI::Success& wanted) {  // help or version
-    return app.exit(wanted);
+    app.exit(wanted);
+    return printed();
   } catch (const CLI::Error& error) {
     return fail(2, std::string(error.what()) + " (see pendular --help)");
   } catch (const Error& error) {

@@ -20,8 +20,11 @@ struct Options {
 };
 
 void render(Options& options) {
-  apply(options.common);
+  apply(options.common, {});
+  for (const auto& input : viz::picture_inputs(options.run))
+    protect_also(fs::is_directory(input) ? files_in(input) : std::vector{input});
   const fs::path out = options.common.out.empty() ? options.run / "pictures" : options.common.out;
+  if (options.common.out.empty()) make_inner_folder(out);
   options.render.film = !options.no_film;
   options.render.provenance = provenance(options.common, viz::picture_inputs(options.run));
   const auto summary = viz::render_run(options.run, out, options.render);

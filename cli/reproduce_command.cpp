@@ -87,7 +87,7 @@ std::vector<Section> sections_of(const reproduction::Desk& desk, sweep::Store& s
 }
 
 void run(const Options& options) {
-  apply(options.common);
+  cli::apply(options.common, files_in(options.folder));
   check(options.making);
   const Provenance from = provenance(options.common, inputs_of(options.folder));
   const fs::path& out = options.common.out;

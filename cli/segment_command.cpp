@@ -100,11 +100,14 @@ nlohmann::ordered_json summary(const Volume& volume, const Segmentation& result,
 }
 
 void run(const Options& options) {
-  apply(options.common);
+  const fs::path& out = options.common.out;
+  const std::vector<fs::path> outputs = {out, beside(out, ".json"), options.bridges, options.labels};
+  apply(options.common, {options.volume}, outputs);
   const ReadOptions how = reading(options);
   if (options.calibrate_bridges && options.bridges.empty())
     throw BadUsage("--calibrate-bridges: found no --bridges, expected bridges to calibrate");
-  for (const fs::path& path : {options.common.out, options.bridges, options.labels}) require_writable(path);
+  protect_also(volume_files(options.volume));
+  require_outputs(outputs);
   const Provenance origin = provenance(options.common, {options.volume});
   const Volume volume = read_volume(options.volume, how);
   const Segmentation result = [&] {
@@ -115,12 +118,13 @@ void run(const Options& options) {
     }
   }();
   for (const auto& warning : result.warnings) warn(warning);
-  write_beads(options.common.out, result.beads, origin);
+  WrittenTogether written;
+  write_beads(out, result.beads, origin);
   if (!options.bridges.empty()) write_bridges(options.bridges, result.beads, result.bridges, origin);
   if (!options.labels.empty()) write_volume(options.labels, label_volume(volume, result), origin);
   if (!options.qa.empty()) write_qa(options.qa, volume, result);
-  write_text(fs::path(options.common.out).replace_extension(".json"),
-             summary(volume, result, origin).dump(2) + "\n");
+  write_text(beside(out, ".json"), summary(volume, result, origin).dump(2) + "\n");
+  written.commit();
   const auto& measured = result.measured;
   say(fmt::format("{} beads of {:.2f} um, {} pairs near enough for a bridge{}, porosity {:.4f}",
                   result.beads.size(), mean_diameter(result.beads) * 1e6, result.bridges.size(),

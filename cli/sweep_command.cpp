@@ -19,7 +19,7 @@ struct Options {
 };
 
 void run(const Options& options) {
-  apply(options.common);
+  apply(options.common, {options.file});
   check(options.making);
   const auto seed = options.seed_given ? std::optional(options.common.seed) : std::nullopt;
   const sweep::SweepFile file = sweep::read_sweep(options.file, seed);
@@ -28,6 +28,7 @@ void run(const Options& options) {
   make_folder(options.common.out);
   std::vector<fs::path> inputs = {options.file, file.sample};
   if (!file.packing.empty()) inputs.push_back(file.packing);
+  protect_also(inputs);
   Provenance from = provenance(options.common, inputs);
   from.seed = file.seed;
 

@@ -147,8 +147,8 @@ void report(const Options& options, const std::vector<Bead>& before, const std::
 }
 
 void run(const Options& options) {
-  apply(options.common);
-  require_writable(options.common.out);
+  const fs::path& out = options.common.out;
+  apply(options.common, {options.before, options.after}, {out, beside(out, ".json")});
   const auto before = read_scan(options.before), after = read_scan(options.after);
   const Provenance origin = provenance(options.common, {options.before, options.after});
   const Motion motion = [&] {
@@ -158,11 +158,12 @@ void run(const Options& options) {
       throw BadInput(fmt::format("{}: {}", options.after.string(), error.what()));
     }
   }();
-  write_motion(options.common.out, before, after, motion, origin);
+  WrittenTogether written;
+  write_motion(out, before, after, motion, origin);
   if (!options.pictures.empty())
     draw(options, before, registered(after, motion.registration.motion), motion, origin);
-  write_text(fs::path(options.common.out).replace_extension(".json"),
-             summary(before, after, motion, origin).dump(2) + "\n");
+  write_text(beside(out, ".json"), summary(before, after, motion, origin).dump(2) + "\n");
+  written.commit();
   report(options, before, after, motion);
 }
 

@@ -2,6 +2,7 @@
 option(PENDULAR_TESTS "Build the tests" ON)
 option(PENDULAR_BENCH "Build the benchmarks" OFF)
 option(PENDULAR_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
+option(PENDULAR_FUZZ "The targets of libFuzzer, under sanitizers; needs clang" OFF)
 
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
@@ -24,10 +25,15 @@ set(CMAKE_BUILD_RPATH ${PENDULAR_MODULES})
 set(CMAKE_INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR}/pendular)
 
 add_library(pendular_flags INTERFACE)
-target_compile_options(pendular_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
+target_compile_options(pendular_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                       $<$<NOT:$<BOOL:${PENDULAR_FUZZ}>>:-Werror>  # another compiler's warnings do not end that build
                        # Results must not depend on how a compiler contracts a*b+c.
                        -ffp-contract=off)
 if(PENDULAR_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+if(PENDULAR_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined)
   add_link_options(-fsanitize=address,undefined)
 endif()

@@ -162,8 +162,8 @@ RunState read_checkpoint(const fs::path& path, const std::string& identity) {
 void keep_checkpoint(const fs::path& folder, const RunState& state, const std::string& identity) {
   const fs::path newest = folder / kNewest, next = folder / kNext;
   write_checkpoint(next, state, identity);
-  if (fs::exists(newest)) fs::rename(newest, folder / kPrevious);
-  fs::rename(next, newest);
+  if (fs::exists(newest)) rename_durably(newest, folder / kPrevious);
+  rename_durably(next, newest);
 }
 
 std::optional<RunState> kept_checkpoint(const fs::path& folder, const std::string& identity) {

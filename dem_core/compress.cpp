@@ -267,10 +267,10 @@ Performance run(RunState& state, const Sample& sample, const CompressOptions& op
 /// What an earlier run in this folder has left must not pass for this one's.
 void remove_earlier_run(const fs::path& folder) {
   for (const char* name : {"curve.csv", "events.csv", "avalanches.csv", "result.json"})
-    fs::remove(folder / name);
+    remove_output(folder / name);
   remove_checkpoints(folder);
   for (const auto& entry : fs::directory_iterator(folder / "frames"))
-    if (entry.path().filename().string().starts_with("frame_")) fs::remove(entry.path());
+    if (entry.path().filename().string().starts_with("frame_")) remove_output(entry.path());
 }
 
 std::string identity_of(const Provenance& provenance) {
@@ -323,7 +323,7 @@ CompressResult compress(const Packing& packing, const Sample& sample, const fs::
     state.simulation.bond_memory.assign(options.evolution.memory * state.simulation.bonds.size(), 0.0);
     if (options.prepare) options.prepare(state.simulation);
   }
-  make_folder(folder / "frames");
+  make_inner_folder(folder / "frames");
   if (!kept) remove_earlier_run(folder);
   const auto ids = bead_ids(packing);
   const Performance performance = run(state, sample, options, folder, ids, identity);

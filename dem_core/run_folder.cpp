@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/csv.h"
 #include "dem_core/local_strain.h"
 #include "dem_core/quasi_static.h"
 #include "dem_core/shear_band.h"
@@ -108,13 +109,15 @@ void write_curve(const fs::path& path, const std::vector<CurveRow>& rows, const 
       "j,"
       "slipped_j,released_by_breaking_j,bonds_per_bead,lateral_strain,inertial_number,unbalanced_force,"
       "halted_j\n";
-  for (const auto& r : rows)
-    text += fmt::format(
-        "{:.9g},{:.9g},{:.9g},{:.0f},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.6g},{:.9g},{:.6g},{:.6g},{:"
-        ".9g}\n",
-        r.strain, r.stress, r.stress_bottom, r.broken_bonds, r.kinetic, r.elastic, r.work, r.damped,
-        r.slipped, r.released, r.coordination, r.lateral_strain, r.inertial_number, r.unbalanced_force,
-        r.halted);
+  for (const auto& r : rows) {
+    const auto nine = [](double value) { return csv_cell(value, 9); };
+    const auto six = [](double value) { return csv_cell(value, 6); };
+    text +=
+        fmt::format("{},{},{},{:.0f},{},{},{},{},{},{},{},{},{},{},{}\n", nine(r.strain), nine(r.stress),
+                    nine(r.stress_bottom), r.broken_bonds, nine(r.kinetic), nine(r.elastic), nine(r.work),
+                    nine(r.damped), nine(r.slipped), nine(r.released), six(r.coordination),
+                    nine(r.lateral_strain), six(r.inertial_number), six(r.unbalanced_force), nine(r.halted));
+  }
   write_text(path, text);
 }
 

@@ -11,7 +11,8 @@ namespace pendular {
 
 /// The files of a run folder (contract, "Tables"); each is written whole or not at all.
 
-/// curve.csv: strain,stress_pa,stress_bottom_pa,broken_bonds,kinetic_energy_j,…
+/// curve.csv: strain,stress_pa,stress_bottom_pa,broken_bonds,kinetic_energy_j,…; a cell is empty where there is no
+/// such number, as of the inertial number without stress.
 void write_curve(const fs::path& path, const std::vector<CurveRow>& rows, const Provenance& provenance);
 
 /// events.csv: one row per broken bond. Mode: what of Griffith's criterion was larger; "mixed" where neither

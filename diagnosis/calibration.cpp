@@ -14,8 +14,8 @@ namespace {
 constexpr double kTemperatures[] = {1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0};
 constexpr double kLeastProbability = 1e-9;  // that a wrong answer is charged with
 constexpr double kFalseAlarms = 0.05, kOfTheta = 0.9, kOfLimits = 0.95;
-constexpr double kSeen = 0.5;    // of an effect's runs that are told from none
-constexpr double kOfAll = 10.0;  // runs that what all effects need is worth beside an effect's own
+constexpr double kBySlip = 0.05;  // of runs without an effect that are told from none; level of a test of it
+constexpr double kOfAll = 10.0;   // runs that what all effects need is worth beside an effect's own
 constexpr double kUnknownAlone = 0.95;
 constexpr double kLeastInCluster = 40.0;  // runs
 constexpr double kLessInCluster = 0.05;   // confidence that one cluster may have less than all together
@@ -143,16 +143,27 @@ void learn_levels(const std::vector<std::vector<Hypothesis>>& said, const Cases&
   for (auto& [id, level] : found.levels) level = std::max(level, found.level);
 }
 
+/// Probability that of n runs at least so many are told from none by slips alone.
+double by_slips(int told, int n) {
+  double below = 0.0, term = std::pow(1.0 - kBySlip, n);
+  for (int k = 0; k < told; ++k) {
+    below += term;
+    term *= kBySlip / (1.0 - kBySlip) * static_cast<double>(n - k) / static_cast<double>(k + 1);
+  }
+  return 1.0 - below;
+}
+
+/// Effects whose runs are told from none no more often than runs without one may be.
 std::set<std::string> unseen_effects(const std::vector<std::vector<Hypothesis>>& said, const Cases& cases,
                                      const Correction& correction) {
-  std::map<std::string, std::pair<double, double>> told;  // of an effect's runs, and all
+  std::map<std::string, std::pair<int, int>> told;  // of an effect's runs, and all
   for (std::size_t k = 0; k < cases.size(); ++k) {
     auto& [apart, all] = told[truth_of(*cases[k])];
-    apart += !holds(set_of(said[k], correction), kNone), all += 1.0;
+    apart += !holds(set_of(said[k], correction), kNone), ++all;
   }
   std::set<std::string> unseen;
   for (const auto& [id, counts] : told)
-    if (id != kNone && counts.first < kSeen * counts.second) unseen.insert(id);
+    if (id != kNone && by_slips(counts.first, counts.second) > kBySlip) unseen.insert(id);
   return unseen;
 }
 

@@ -59,11 +59,11 @@ struct Promise {
 };
 
 /// From replayed runs with one effect or none. `confidence` in (0, 1). Sets are split-conformal: the least
-/// level at which ⌈(n+1) confidence⌉ of n replayed sets hold their truth (Vovk et al. 2005). Effects that are
-/// told from none in less than half of their runs at that level are unseen: a set that holds none stands for
-/// them, and the level is found again. `unknown` is let in by the same rule at a false-alarm rate of 5 %;
-/// intervals of θ likewise at 90 %, those of effects with few runs drawn to what all need; upper limits at
-/// 95 %.
+/// level at which ⌈(n+1) confidence⌉ of n replayed sets hold their truth (Vovk et al. 2005). Effects whose
+/// runs are told from none at that level no more often than slips of 5 % explain (binomial test at 5 %) are
+/// unseen: a set that holds none stands for them, and the level is found again. `unknown` is let in by the
+/// same rule at a false-alarm rate of 5 %; intervals of θ likewise at 90 %, those of effects with few runs
+/// drawn to what all need; upper limits at 95 %.
 Promise promise_of(const std::vector<Replayed>& replayed, double confidence);
 
 /// Probabilities by tempered evidence, and intervals widened about their means.

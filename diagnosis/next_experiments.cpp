@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kSpacing = 1.0 / 6.0;  // of magnitudes in a bank, over its largest
 constexpr double kOfInterval = 3.29;    // standard deviations in an interval of 90 %
+constexpr double kRound = 0.5;          // cost of another round, whatever is measured in it
 constexpr double kGain = 0.02;          // bits below which nothing is gained
 constexpr double kCases = 240.0;        // replayed at least
 
@@ -151,10 +152,14 @@ bool settles_something(const FurtherMeasurement& measurement, const Question& qu
                      [&](const std::string& id) { return question.effects.contains(id); });
 }
 
-/// By gain per cost, those that lack runs last.
+double value(const NextExperiment& next) {
+  return next.gain / (kRound + next.cost);
+}
+
+/// Those that lack runs last.
 bool better(const NextExperiment& a, const NextExperiment& b) {
   if ((a.outlook.cases > 0) != (b.outlook.cases > 0)) return a.outlook.cases > 0;
-  return a.gain / a.cost > b.gain / b.cost;
+  return value(a) > value(b);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 std::vector<CurveRow> read_rows(const fs::path& path) {
   const CsvTable table = read_csv(path, {"strain", "stress_pa", "broken_bonds", "lateral_strain"});
   const auto strain = table.numbers("strain"), stress = table.numbers("stress_pa"),
-             broken = table.numbers("broken_bonds"), lateral = table.numbers("lateral_strain");
+             broken = table.numbers("broken_bonds"), lateral = table.numbers("lateral_strain", true);
   std::vector<CurveRow> rows(table.rows());
   for (std::size_t k = 0; k < rows.size(); ++k) {
     rows[k].strain = strain[k], rows[k].stress = stress[k];

@@ -1,9 +1,9 @@
 #include "packing/check.h"
 
 #include <algorithm>
-#include <cmath>
 #include <unordered_set>
 
+#include "base/columns.h"
 #include "base/error.h"
 #include "packing/bridges.h"
 #include "packing/neighbours.h"
@@ -16,10 +16,9 @@ void check_beads(const std::vector<Bead>& beads, const std::string& where) {
   for (const auto& bead : beads) {
     if (!ids.insert(bead.id).second)
       bad_input("{}: bead {}: found the id twice, expected once", where, bead.id);
-    if (!bead.centre.allFinite()) bad_input("{}: bead {}: found a centre that is not finite", where, bead.id);
-    if (!std::isfinite(bead.diameter) || bead.diameter <= 0.0)
-      bad_input("{}: bead {}: found diameter {:.6g} um, expected a positive one", where, bead.id,
-                1e6 * bead.diameter);
+    const std::string of = fmt::format("bead {}: ", bead.id);
+    for (const double x : bead.centre) require_in_range(where, of + "centre, um", range_of("x_um"), 1e6 * x);
+    require_in_range(where, of + "diameter, um", range_of("diameter_um"), 1e6 * bead.diameter);
   }
   // Spheres of half the size touch where the centres are half the mean diameter apart.
   std::vector<double> halves = diameters_of(beads);

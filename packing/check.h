@@ -8,7 +8,7 @@
 namespace pendular {
 
 /// BadInput, opening with `where` and naming the beads, for: no bead, an id found twice, a centre or diameter
-/// that is not finite, a diameter that is not positive, and two centres closer than half the mean of their
+/// that no bead has (base/columns.h), and two centres closer than half the mean of their
 /// diameters (a bead listed twice, or columns in different units).
 void check_beads(const std::vector<Bead>& beads, const std::string& where);
 

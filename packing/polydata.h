@@ -28,7 +28,8 @@ struct PolyTable {
 /// Writes a .vtp whole or not at all (XML, appended and compressed); equal tables give equal bytes.
 void write_polydata(const fs::path& path, const PolyTable& table);
 
-/// BadInput where the file is no readable .vtp, is truncated, or an array has another length than it must.
+/// Reads a .vtp of one piece: ASCII, base64 or raw, uncompressed or by zlib. VTK sees no byte of it. BadInput
+/// where the file is no readable .vtp, is truncated, or an array has another length than it must.
 PolyTable read_polydata(const fs::path& path);
 
 /// A named array of the wanted type (integers are converted to numbers); BadInput naming file and array

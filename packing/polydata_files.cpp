@@ -5,7 +5,6 @@
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
-#include <vtkIdList.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -16,14 +15,11 @@
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkTypeInt64Array.h>
-#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
-#include <cstring>
 #include <fstream>
 #include <mutex>
-#include <optional>
 
 #include "base/error.h"
 
@@ -142,96 +138,6 @@ vtkSmartPointer<vtkPolyData> to_vtk(const PolyTable& table) {
   return data;
 }
 
-/// Tuples [first, first + count) of an array of one or three components; nothing for any other.
-std::optional<PolyTable::Array> from_vtk(vtkDataArray* array, vtkIdType first, vtkIdType count) {
-  if (array->GetNumberOfComponents() == 3) {
-    std::vector<Vec3> values(static_cast<std::size_t>(count));
-    for (vtkIdType k = 0; k < count; ++k)
-      array->GetTuple(first + k, values[static_cast<std::size_t>(k)].data());
-    return values;
-  }
-  if (array->GetNumberOfComponents() != 1) return std::nullopt;
-  if (array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE) {
-    std::vector<double> values(static_cast<std::size_t>(count));
-    for (vtkIdType k = 0; k < count; ++k) values[static_cast<std::size_t>(k)] = array->GetTuple1(first + k);
-    return values;
-  }
-  std::vector<std::int64_t> values(static_cast<std::size_t>(count));
-  for (vtkIdType k = 0; k < count; ++k)
-    values[static_cast<std::size_t>(k)] = array->GetVariantValue(first + k).ToTypeInt64();
-  return values;
-}
-
-/// The arrays of points or cells, of which `count` from `first` on belong to the table.
-std::vector<std::pair<std::string, PolyTable::Array>> from_vtk(vtkDataSetAttributes* data, vtkIdType expected,
-                                                               vtkIdType first, vtkIdType count,
-                                                               const fs::path& path) {
-  std::vector<std::pair<std::string, PolyTable::Array>> arrays;
-  for (int k = 0; k < data->GetNumberOfArrays(); ++k) {
-    vtkDataArray* array = data->GetArray(k);
-    if (array == nullptr || array->GetName() == nullptr) continue;
-    if (array->GetNumberOfTuples() != expected)
-      bad_input("{}: array {}: found {} values, expected {}", path.string(), array->GetName(),
-                array->GetNumberOfTuples(), expected);
-    if (auto values = from_vtk(array, first, count))
-      arrays.emplace_back(array->GetName(), std::move(*values));
-  }
-  return arrays;
-}
-
-std::vector<std::array<int, 2>> lines_of(vtkPolyData* data, const fs::path& path) {
-  std::vector<std::array<int, 2>> lines;
-  vtkNew<vtkIdList> ends;
-  vtkCellArray* cells = data->GetLines();
-  const vtkIdType points = data->GetNumberOfPoints();
-  for (vtkIdType k = 0; k < cells->GetNumberOfCells(); ++k) {
-    cells->GetCellAtId(k, ends);
-    if (ends->GetNumberOfIds() != 2)
-      bad_input("{}: line {}: found {} points, expected 2", path.string(), k, ends->GetNumberOfIds());
-    for (vtkIdType end = 0; end < 2; ++end)
-      if (ends->GetId(end) < 0 || ends->GetId(end) >= points)
-        bad_input("{}: line {}: found point {}, expected one of {} points", path.string(), k,
-                  ends->GetId(end), points);
-    lines.push_back({static_cast<int>(ends->GetId(0)), static_cast<int>(ends->GetId(1))});
-  }
-  return lines;
-}
-
-void read_fields(vtkFieldData* data, PolyTable& table) {
-  for (int k = 0; k < data->GetNumberOfArrays(); ++k) {
-    vtkAbstractArray* array = data->GetAbstractArray(k);
-    if (array->GetName() == nullptr || array->GetNumberOfValues() != 1) continue;
-    if (auto* text = vtkStringArray::SafeDownCast(array))
-      table.text_fields[array->GetName()] = text->GetValue(0);
-    if (auto* number = vtkDataArray::SafeDownCast(array))
-      table.number_fields[array->GetName()] = number->GetTuple1(0);
-  }
-}
-
-constexpr const char* kEnd = "</VTKFile>";
-constexpr const char* kSeal = "<!-- pendular sha256 ";
-
-/// The comment that closes the files written here, so that damage is noticed before VTK's reader meets it: a
-/// damaged file can end the program inside the library.
-std::string seal(std::string_view content) {
-  return kSeal + sha256(content) + " -->\n";
-}
-
-/// A file that is cut or, if it was written here, damaged in any way.
-void require_whole(const fs::path& path) {
-  const std::string bytes = read_text(path);
-  const std::size_t end = bytes.rfind(kEnd);
-  if (end == std::string::npos)
-    bad_input("{}: found no {} at its end, expected a whole VTK XML file (.vtp)", path.string(), kEnd);
-  const std::size_t sealed = bytes.rfind(kSeal);
-  if (sealed == std::string::npos &&
-      bytes.find_first_not_of(" \r\n\t", end + std::strlen(kEnd)) == std::string::npos)
-    return;  // of another program
-  if (sealed == std::string::npos || bytes.substr(sealed) != seal(std::string_view(bytes).substr(0, sealed)))
-    bad_input("{}: found damaged VTK data (its checksum does not match), expected the file as it was written",
-              path.string());
-}
-
 void write(const fs::path& path, const PolyTable& table) {
   const auto data = to_vtk(table);
   write_atomically(path, [&](const fs::path& temporary) {
@@ -245,42 +151,13 @@ void write(const fs::path& path, const PolyTable& table) {
     if (writer->Write() != 1 || messages.any())
       throw ComputationFailed(fmt::format("{}: cannot be written (folder or disc full?)", path.string()));
     std::ofstream out(temporary, std::ios::binary | std::ios::app);
-    out << seal(read_text(temporary));
+    out << polydata_seal(read_text(temporary));
     out.close();
     if (!out) throw ComputationFailed(fmt::format("{}: cannot be written (disc full?)", path.string()));
   });
 }
 
-PolyTable read(const fs::path& path) {
-  require_whole(path);
-  const VtkMessages messages;
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetFileName(path.c_str());
-  if (reader->CanReadFile(path.c_str()) == 0)
-    bad_input("{}: is no VTK PolyData XML file (.vtp)", path.string());
-  try {
-    reader->Update();
-  } catch (const std::bad_alloc&) {
-    bad_input("{}: found arrays too large for the memory, expected an undamaged .vtp", path.string());
-  }
-  vtkPolyData* data = reader->GetOutput();
-  if (reader->GetErrorCode() != 0 || messages.any() || data == nullptr)
-    bad_input("{}: found damaged VTK data, expected a readable .vtp", path.string());
-
-  PolyTable table;
-  table.points.resize(static_cast<std::size_t>(data->GetNumberOfPoints()));
-  for (vtkIdType k = 0; k < data->GetNumberOfPoints(); ++k)
-    data->GetPoint(k, table.points[static_cast<std::size_t>(k)].data());
-  table.lines = lines_of(data, path);
-  table.point_data =
-      from_vtk(data->GetPointData(), data->GetNumberOfPoints(), 0, data->GetNumberOfPoints(), path);
-  table.line_data = from_vtk(data->GetCellData(), data->GetNumberOfCells(), data->GetNumberOfVerts(),
-                             data->GetNumberOfLines(), path);
-  read_fields(data->GetFieldData(), table);
-  return table;
-}
-
 }  // namespace
 }  // namespace pendular
 
-const pendular::PolydataFiles pendular_polydata_files = {pendular::write, pendular::read};
+const pendular::PolydataFiles pendular_polydata_files = {pendular::write};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/columns.h"
 #include "base/error.h"
 #include "packing/check.h"
 #include "packing/polydata.h"
@@ -36,7 +37,17 @@ double number_field(const PolyTable& table, const std::string& name, const fs::p
   const auto field = table.number_fields.find(name);
   if (field == table.number_fields.end())
     bad_input("{}: field data {} is missing, expected a packing written by pendular", path.string(), name);
+  require_in_range(path.string(), "field data " + name, range_of(name), field->second);
   return field->second;
+}
+
+/// An array of numbers, in the range of its name.
+std::vector<double> measured(const PolyTable& table, bool of_points, const std::string& name,
+                             const fs::path& path) {
+  auto values = numbers(table, of_points, name, path);
+  const Range range = range_of(name);
+  for (const double value : values) require_in_range(path.string(), "array " + name, range, value);
+  return values;
 }
 
 Specimen specimen_of(const PolyTable& table, const fs::path& path) {
@@ -63,10 +74,10 @@ Provenance provenance_of(const PolyTable& table, const fs::path& path) {
 
 std::vector<Bead> beads_of(const PolyTable& table, const fs::path& path) {
   const auto ids = integers(table, true, "bead_id", path), boundary = integers(table, true, "boundary", path);
-  const auto diameter = numbers(table, true, "diameter_um", path);
-  const auto sigma_centre = numbers(table, true, "sigma_centre_um", path);
-  const auto sigma_diameter = numbers(table, true, "sigma_diameter_um", path);
-  const auto quality = numbers(table, true, "quality", path);
+  const auto diameter = measured(table, true, "diameter_um", path);
+  const auto sigma_centre = measured(table, true, "sigma_centre_um", path);
+  const auto sigma_diameter = measured(table, true, "sigma_diameter_um", path);
+  const auto quality = measured(table, true, "quality", path);
   std::vector<Bead> beads;
   for (std::size_t k = 0; k < table.points.size(); ++k)
     beads.push_back({ids[k], um * table.points[k], um * diameter[k], um * sigma_centre[k],
@@ -77,7 +88,7 @@ std::vector<Bead> beads_of(const PolyTable& table, const fs::path& path) {
 
 std::vector<Bridge> bridges_of(const PolyTable& table, const fs::path& path) {
   if (table.lines.empty()) return {};
-  const auto number = [&](const char* name) { return numbers(table, false, name, path); };
+  const auto number = [&](const char* name) { return measured(table, false, name, path); };
   const auto gap_um = number("gap_um"), sigma_gap = number("sigma_gap_um"),
              probability = number("probability");
   const auto diameter = number("bridge_diameter_um"), sigma_diameter = number("sigma_bridge_diameter_um");

@@ -83,7 +83,7 @@ double band_contrast(const viz::RunFolder& run) {
 }
 
 double volume_change_at_peak(const viz::RunFolder& run) {
-  const auto lateral = read_csv(run.path / "curve.csv", {"lateral_strain"}).numbers("lateral_strain");
+  const auto lateral = read_csv(run.path / "curve.csv", {"lateral_strain"}).numbers("lateral_strain", true);
   const auto peak = std::max_element(run.stress.begin(), run.stress.end()) - run.stress.begin();
   const auto row = static_cast<std::size_t>(peak);
   return 2.0 * lateral[row] - run.strain[row];

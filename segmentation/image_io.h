@@ -5,7 +5,9 @@
 #include "segmentation/itk_images.h"
 
 #include "base/error.h"
+#include "segmentation/pixels.h"
 #include "segmentation/volume.h"
+#include "segmentation/voxel_header.h"
 
 namespace pendular {
 
@@ -24,7 +26,7 @@ class QuietLibraries {
 
 std::string lower_extension(const fs::path& path);
 
-/// Everything before the first line break.
+/// Everything before the first line break, without addresses in memory.
 std::string first_line(const char* text);
 
 /// Runs a call into ITK; its exceptions become one line about `path`.
@@ -39,7 +41,7 @@ void guarded(const fs::path& path, const Call& call) {
   }
 }
 
-/// The reader for a file's extension; BadInput for any other.
+/// The reader of a TIFF or PNG; BadInput for any other extension.
 itk::ImageIOBase::Pointer reader_of(const fs::path& path);
 
 /// The header of one file: grey, of a pixel type that is kept as it is.
@@ -52,18 +54,14 @@ void read_pixels(itk::ImageIOBase& io, const fs::path& path, char* target);
 Volume::Pixels pixels_of(itk::IOComponentEnum type, const fs::path& path);
 Volume::Pixels pixels_of(const std::string& type);
 
-std::size_t bytes_per_voxel(const Volume& volume);
-char* bytes(Volume& volume);
-
-/// Makes room for the pixels. A header may claim any size; what compression cannot have shrunk to
-/// `data_bytes` is not there.
-void allocate(Volume& volume, const fs::path& path, std::uintmax_t data_bytes);
-
 /// Voxel size and origin from a header (null: none that is meant) and options. Where the header's voxels are
 /// not cubic and the options do not overrule it, the size is that of the shortest edge. Returns the edges
-/// over it.
-std::array<double, 3> place(Volume& volume, itk::ImageIOBase* io, const fs::path& path,
+/// over it. BadInput for a size from beyond 1 nm to 1 cm, and for an origin farther than a metre.
+std::array<double, 3> place(Volume& volume, const Placement* header, const fs::path& path,
                             const ReadOptions& options);
+
+/// BadInput where the voxel size or the origin cannot be meant.
+void check_place(const Volume& volume, const fs::path& path);
 
 /// Edges over the shortest; ones where they agree to a thousandth. BadInput beyond a factor of eight.
 std::array<double, 3> over_shortest(const std::array<double, 3>& edges, const fs::path& path);

@@ -118,9 +118,7 @@ std::array<double, 3> set_spacing(Volume& volume, const itk::ImageIOBase& first,
                                     between > 0.0 ? between : first.GetSpacing(2)};
   volume.spacing = options.spacing.value_or(kMillimetre * *std::min_element(edges.begin(), edges.end()));
   volume.origin = kMillimetre * origin_of(first);
-  if (!(volume.spacing > 0.0) || !std::isfinite(volume.spacing))
-    bad_input("{}: found a voxel size of {} um, expected a positive number", path.string(),
-              volume.spacing * 1e6);
+  check_place(volume, path);
   return options.spacing ? std::array{1.0, 1.0, 1.0} : over_shortest(edges, path);
 }
 

@@ -40,12 +40,7 @@ SliceName slice_name(const fs::path& path) {
 /// The slices of a folder in the order of their numbers; BadInput for a hole.
 std::vector<SliceName> slices_of(const fs::path& folder) {
   std::vector<SliceName> slices;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string extension = lower_extension(entry.path());
-    const bool image = extension == ".tif" || extension == ".tiff" || extension == ".png";
-    if (image && entry.is_regular_file() && entry.path().filename().string().front() != '.')
-      slices.push_back(slice_name(entry.path()));
-  }
+  for (const auto& file : slice_files(folder)) slices.push_back(slice_name(file));
   if (slices.size() < 2)
     bad_input("{}: found {} TIFF or PNG slices, expected at least two", folder.string(), slices.size());
   std::sort(slices.begin(), slices.end(), [](const SliceName& a, const SliceName& b) {
@@ -66,6 +61,16 @@ std::vector<SliceName> slices_of(const fs::path& folder) {
 }
 
 }  // namespace
+
+std::vector<fs::path> slice_files(const fs::path& folder) {
+  std::vector<fs::path> files = files_in(folder);
+  std::erase_if(files, [](const fs::path& file) {
+    const std::string extension = lower_extension(file);
+    return file.filename().string().front() == '.' ||
+           (extension != ".tif" && extension != ".tiff" && extension != ".png");
+  });
+  return files;
+}
 
 Volume read_slices(const fs::path& folder, const ReadOptions& options) {
   const auto slices = slices_of(folder);

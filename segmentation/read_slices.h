@@ -8,4 +8,7 @@ namespace pendular {
 /// slices of several series, sizes or pixel types.
 Volume read_slices(const fs::path& folder, const ReadOptions& options);
 
+/// The TIFF and PNG files of a folder.
+std::vector<fs::path> slice_files(const fs::path& folder);
+
 }  // namespace pendular

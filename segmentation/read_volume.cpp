@@ -2,9 +2,6 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <fstream>
-#include <limits>
-#include <map>
 
 #include "base/parallel.h"
 #include "segmentation/image_io.h"
@@ -18,110 +15,44 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "headerless files are read as little endian");
 
-/// Fields of a MetaImage's header, and where it ends.
-struct MetaHeader {
-  std::map<std::string, std::string> field;
-  std::size_t bytes = 0;
-
-  bool says(const std::string& name) const {
-    const auto found = field.find(name);
-    return found != field.end() && !found->second.empty() && std::toupper(found->second[0]) == 'T';
-  }
-};
-
-MetaHeader meta_header(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  MetaHeader header;
-  constexpr int most_lines = 1000;
-  std::string line;
-  for (int k = 0; k < most_lines && !header.field.count("ElementDataFile") && std::getline(in, line); ++k) {
-    const auto equals = line.find('=');
-    if (equals == std::string::npos) continue;
-    const auto trimmed = [](std::string word) {
-      word.erase(0, word.find_first_not_of(" \t\r"));
-      word.erase(word.find_last_not_of(" \t\r") + 1);
-      return word;
-    };
-    header.field[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
-  }
-  header.bytes = static_cast<std::size_t>(std::max<std::streamoff>(0, in.tellg()));
-  return header;
+bool is_meta(const std::string& extension) {
+  return extension == ".mha" || extension == ".mhd";
 }
 
-/// Where voxels lie in a file as they are in memory.
-struct PlainData {
-  fs::path file;
-  std::size_t first_byte = 0;
-};
-
-/// MetaIO reads truncated data without an error, so the amount of data is checked here. None if the data are
-/// not plain.
-/// `voxel_bytes`: what the header asks for.
-std::optional<PlainData> metaimage_data(const fs::path& path, std::uintmax_t voxel_bytes) {
-  MetaHeader header = meta_header(path);
-  const std::string file = header.field["ElementDataFile"];
-  if (file == "LIST" || file.find('%') != std::string::npos) return std::nullopt;
-  const bool local = file == "LOCAL" || file == "Local" || file == "local";
-  const fs::path data = local ? path : path.parent_path() / file;
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(data, error);
-  if (error)
-    bad_input("{}: ElementDataFile: found no file '{}', expected the voxels there", path.string(),
-              data.string());
-  const bool compressed = header.says("CompressedData");
-  const std::string shrunk = header.field["CompressedDataSize"];
-  if (compressed && shrunk.empty()) return std::nullopt;
-  const std::uintmax_t expected = compressed ? std::strtoull(shrunk.c_str(), nullptr, 10) : voxel_bytes;
-  std::uintmax_t skipped = local ? header.bytes : 0;
-  const std::string stated = header.field["HeaderSize"];
-  if (!stated.empty() && !local)
-    skipped = static_cast<std::uintmax_t>(std::max(0LL, std::atoll(stated.c_str())));
-  if (size - std::min(size, skipped) != expected)
-    bad_input("{}: found {} bytes of voxels, expected {}: truncated, or DimSize or ElementType do not match",
-              data.string(), size - std::min(size, skipped), expected);
-  const bool plain = !compressed && header.says("BinaryData") && !header.says("BinaryDataByteOrderMSB") &&
-                     !header.says("ElementByteOrderMSB");
-  return plain ? std::optional(PlainData{data, skipped}) : std::nullopt;
+bool is_nrrd(const std::string& extension) {
+  return extension == ".nrrd" || extension == ".nhdr";
 }
 
-void map_pixels(Volume& volume, const PlainData& data) {
-  volume.file = std::make_shared<MappedFile>(data.file);
-  volume.first_byte = data.first_byte;
-  if (volume.file->size() - data.first_byte != volume.voxels() * bytes_per_voxel(volume))
-    bad_input("{}: found {} bytes, expected as many as before: the file is being written", data.file.string(),
-              volume.file->size());
+/// A MetaImage or NRRD, whose header is read here.
+Volume read_with_header(const VoxelHeader& header, const fs::path& path, const ReadOptions& options) {
+  Volume volume;
+  volume.size = header.size;
+  volume.pixels = header.pixels;
+  const auto edges = place(volume, &header.place, path, options);
+  read_voxels(header, path, volume);
+  return made_cubic(std::move(volume), edges, path);
 }
 
-Volume read_one_file(const fs::path& path, const ReadOptions& options) {
+/// Pages of a TIFF. Its resolution tag is a printer's and rarely the scanner's.
+Volume read_pages(const fs::path& path, const ReadOptions& options) {
   const auto io = reader_of(path);
   read_header(*io, path);
-  unsigned dimensions = io->GetNumberOfDimensions();
-  while (dimensions > 3 && io->GetDimensions(dimensions - 1) == 1) --dimensions;
-  if (dimensions != 3)
-    bad_input("{}: found an image of {} dimensions, expected 3", path.string(), dimensions);
+  if (io->GetNumberOfDimensions() != 3)
+    bad_input("{}: found an image of {} dimensions, expected 3", path.string(), io->GetNumberOfDimensions());
   Volume volume;
   volume.pixels = pixels_of(io->GetComponentType(), path);
   for (unsigned axis = 0; axis < 3; ++axis) volume.size[axis] = io->GetDimensions(axis);
+  place(volume, nullptr, path, options);
+  allocate(volume, path, fs::file_size(path));
+  read_pixels(*io, path, bytes(volume));
+  return volume;
+}
+
+Volume read_one_file(const fs::path& path, const ReadOptions& options) {
   const std::string extension = lower_extension(path);
-  const bool meta = extension == ".mha" || extension == ".mhd";
-  std::optional<PlainData> plain;
-  if (meta) {
-    std::uintmax_t voxels = 1;
-    for (const std::size_t n : volume.size) voxels *= n;
-    plain = metaimage_data(path, voxels * bytes_per_voxel(volume));
-  }
-  const bool detached = extension == ".mhd" || extension == ".nhdr";
-  const auto least_bytes = detached ? std::numeric_limits<std::uintmax_t>::max() : fs::file_size(path);
-  // The resolution tag of a TIFF is a printer's and rarely the scanner's.
-  const bool spacing_is_meant = meta || extension == ".nrrd" || extension == ".nhdr";
-  const auto edges = place(volume, spacing_is_meant ? io.GetPointer() : nullptr, path, options);
-  if (plain) {
-    map_pixels(volume, *plain);
-  } else {
-    allocate(volume, path, least_bytes);
-    read_pixels(*io, path, bytes(volume));
-  }
-  return made_cubic(std::move(volume), edges, path);
+  if (is_meta(extension)) return read_with_header(read_meta_header(path), path, options);
+  if (is_nrrd(extension)) return read_with_header(read_nrrd_header(path), path, options);
+  return read_pages(path, options);
 }
 
 Volume read_raw(const fs::path& path, const ReadOptions& options) {
@@ -137,7 +68,10 @@ Volume read_raw(const fs::path& path, const ReadOptions& options) {
     bad_input("{}: found {} bytes, expected {:.0f} for {} x {} x {} voxels of {}", path.string(), size,
               expected, volume.size[0], volume.size[1], volume.size[2], options.raw_type);
   place(volume, nullptr, path, options);
-  map_pixels(volume, {path, 0});
+  volume.file = std::make_shared<MappedFile>(path);
+  if (volume.file->size() != size)
+    bad_input("{}: found {} bytes, expected {} as before: the file is being written", path.string(),
+              volume.file->size(), size);
   return volume;
 }
 
@@ -182,6 +116,21 @@ void check_pixels(const Volume& volume, const fs::path& path) {
 }
 
 }  // namespace
+
+std::vector<fs::path> volume_files(const fs::path& path) {
+  require_readable(path, true);
+  std::vector<fs::path> files = {path};
+  const std::string extension = lower_extension(path);
+  if (fs::is_directory(path)) return is_dicom(path) ? files_in(path) : slice_files(path);
+  if (is_meta(extension) || is_nrrd(extension)) {
+    const auto header = is_meta(extension) ? read_meta_header(path) : read_nrrd_header(path);
+    files.insert(files.end(), header.files.begin(), header.files.end());
+  } else if (is_phoenix(path)) {
+    const fs::path parameters = fs::path(path).replace_extension(".pcr");
+    files.insert(files.end(), {parameters, read_pcr(parameters).data});
+  }
+  return files;
+}
 
 Volume read_volume(const fs::path& path, const ReadOptions& options) {
   require_readable(path, true);

@@ -84,6 +84,9 @@ struct ReadOptions {
 /// headerless and phoenix data stay in their file, so the volume may be larger than memory.
 Volume read_volume(const fs::path& path, const ReadOptions& options = {});
 
+/// The files that a volume is read from: the one that is named and those that it names, or a folder's slices.
+std::vector<fs::path> volume_files(const fs::path& path);
+
 /// Writes a MetaImage (.mha; lengths in µm, provenance in its header) or a TIFF of one page per slice (.tif,
 /// .tiff; BigTIFF from 2 GiB on; no lengths), uncompressed, whole or not at all.
 void write_volume(const fs::path& path, const Volume& volume, const Provenance& provenance = {});

@@ -1,9 +1,12 @@
 #include "sweep/execute.h"
 
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
+#include "base/error.h"
 #include "sweep/executors.h"
+#include "sweep/make_run.h"
 
 namespace pendular::sweep {
 
@@ -30,6 +33,23 @@ std::string last_words(const Store& store, const std::string& hash) {
   return last;
 }
 
+namespace {
+
+/// BadInput where a finished run has no result of its own.
+void require_result(const Store& store, const std::string& hash) {
+  const fs::path file = store.run_folder(hash) / "result.json";
+  const auto json = nlohmann::json::parse(read_text(file), nullptr, false);
+  const nlohmann::json::json_pointer command("/provenance/command");
+  const bool whole = json.is_object() && json.contains("linear_modulus_pa") && json.contains("beads") &&
+                     json["beads"].is_number() && json.contains(command) &&
+                     json[command] == run_command(hash);
+  if (!whole)
+    bad_input("{}: is damaged or of another run; remove its folder, and the sweep makes it anew",
+              file.string());
+}
+
+}  // namespace
+
 std::vector<RunOutcome> execute(Store& store, std::span<const RunRequest> requests,
                                 const ExecuteOptions& options) {
   const std::vector<std::string> hashes = store.add(requests);
@@ -47,6 +67,8 @@ std::vector<RunOutcome> execute(Store& store, std::span<const RunRequest> reques
     run_locally(store, open, options);
 
   const auto records = store.records(once);
+  for (const auto& hash : once)
+    if (records.at(hash).status == RunStatus::done) require_result(store, hash);
   std::vector<RunOutcome> outcomes;
   for (const auto& hash : hashes) {
     const RunRecord& record = records.at(hash);

@@ -53,7 +53,7 @@ class SignsOfLife {
 Provenance provenance_of(const RunRequest& request, const std::string& hash) {
   Provenance provenance;
   provenance.version = program_version();
-  provenance.command = "pendular sweep: run " + hash;
+  provenance.command = run_command(hash);
   provenance.seed = request.seed;
   return provenance;
 }
@@ -104,7 +104,7 @@ void make(Store& store, const std::string& hash) {
     bad_input("run {}: was asked for by another version of pendular, this is {}", hash, program_version());
   const fs::path final_folder = store.run_folder(hash), folder = store.part_folder(hash);
   if (fs::exists(final_folder)) return book(store, hash, request, std::nullopt);
-  make_folder(folder);
+  make_inner_folder(folder);
   write_text(folder / "request.json", request_text(request));
   write_text(folder / "sample.toml", sample_text(request.sample));
 
@@ -123,11 +123,15 @@ void make(Store& store, const std::string& hash) {
   result.erase("performance");  // the only part that differs between two runs of the same work
   write_text(folder / "result.json", result.dump(2) + "\n");
   remove_leftovers(folder);
-  fs::rename(folder, final_folder);
+  rename_durably(folder, final_folder);
   book(store, hash, request, effort);
 }
 
 }  // namespace
+
+std::string run_command(const std::string& hash) {
+  return "pendular sweep: run " + hash;
+}
 
 void make_run(Store& store, const std::string& hash) {
   if (!store.take(hash)) return;

@@ -11,4 +11,7 @@ namespace pendular::sweep {
 /// recorded in the store and thrown; interrupted, the run waits again with its checkpoint kept.
 void make_run(Store& store, const std::string& hash);
 
+/// The command that a run's files name as theirs.
+std::string run_command(const std::string& hash);
+
 }  // namespace pendular::sweep

@@ -20,7 +20,7 @@ Sample sample_at(const std::string& text, const SweepFile& file, const Plan::Run
     else
       settings.emplace_back(keys[k], run.values[k]);
   }
-  Sample sample = parse_sample(text, where, settings);
+  Sample sample = whole_sample(text, where, settings);
   effects::check_effects(sample, where);
   if (!content) return sample;
   set_polymer_content(sample, *content);
@@ -79,6 +79,7 @@ Plan plan_of(const SweepFile& file) {
       plan.requests.push_back({sample, file.packing.empty() ? generated : given, run.seed, file.keep_all});
     }
   }
+  warn_of_later_keys(text, file.sample.string());
   return plan;
 }
 

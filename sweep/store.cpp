@@ -14,6 +14,13 @@ constexpr std::int64_t kVersion = 1;
 constexpr const char* kIndex = "index.sqlite";
 constexpr const char* kFailure = "failed.json";
 
+/// All that an index holds beside SQLite's own.
+constexpr const char* kTable =
+    "CREATE TABLE runs (hash TEXT PRIMARY KEY, status TEXT NOT NULL, exit_status INTEGER, message TEXT,"
+    " particle_steps REAL, wall_s REAL, threads INTEGER,"
+    " host TEXT, pid INTEGER, started INTEGER, sign INTEGER, request TEXT NOT NULL)";
+constexpr const char* kByStatus = "CREATE INDEX runs_by_status ON runs (status)";
+
 /// The columns that a RunRecord is read from.
 constexpr const char* kRecord =
     "SELECT hash, status, exit_status, message, host, pid, started, sign FROM runs";
@@ -24,7 +31,7 @@ std::int64_t now() {
 }
 
 const fs::path& with_folders(const fs::path& folder) {
-  for (const char* name : {"runs", "packings", "logs"}) make_folder(folder / name);
+  for (const char* name : {"runs", "packings", "logs"}) make_inner_folder(folder / name);
   return folder;
 }
 
@@ -38,6 +45,12 @@ RunStatus status_of(const std::string& word) {
   for (const auto status : {RunStatus::running, RunStatus::done, RunStatus::failed})
     if (to_string(status) == word) return status;
   return RunStatus::waiting;
+}
+
+/// Whether failed.json says what Store::fail() writes.
+bool is_failure(const nlohmann::json& json) {
+  return json.is_object() && json.contains("exit_status") && json["exit_status"].is_number_integer() &&
+         json.contains("message") && json["message"].is_string();
 }
 
 RunRecord record_of(const Database::Row& row) {
@@ -75,6 +88,14 @@ Store::Store(const fs::path& folder) : folder_(with_folders(folder)), index_(fol
   if (version() != kVersion)
     bad_input("{}: found a store of version {}, expected {}; it was written by another version of pendular",
               (folder / kIndex).string(), version(), kVersion);
+  const auto schema =
+      index_.run("SELECT sql FROM sqlite_master WHERE sql IS NOT NULL ORDER BY rootpage, name");
+  if (schema != std::vector<Database::Row>{{kTable}, {kByStatus}})
+    bad_input(
+        "{}: found tables or triggers that are not pendular's; remove it, and the next sweep makes it anew "
+        "from "
+        "the run folders",
+        (folder / kIndex).string());
   const auto check = index_.run("PRAGMA quick_check(1)");
   if (check.size() != 1 || check[0][0] != Database::Cell("ok"))
     bad_input("{}: is damaged; remove it, and the next sweep makes it anew from the run folders",
@@ -88,11 +109,8 @@ bool Store::exists(const fs::path& folder) {
 void Store::make_index() {
   Transaction transaction(index_);
   if (!index_.run("SELECT name FROM sqlite_master").empty()) return;  // another process was faster
-  index_.run(
-      "CREATE TABLE runs (hash TEXT PRIMARY KEY, status TEXT NOT NULL, exit_status INTEGER, message TEXT,"
-      " particle_steps REAL, wall_s REAL, threads INTEGER,"
-      " host TEXT, pid INTEGER, started INTEGER, sign INTEGER, request TEXT NOT NULL)");
-  index_.run("CREATE INDEX runs_by_status ON runs (status)");
+  index_.run(kTable);
+  index_.run(kByStatus);
   const std::size_t entered = enter_run_folders();
   index_.run("PRAGMA user_version = " + std::to_string(kVersion));
   transaction.commit();
@@ -113,11 +131,11 @@ std::size_t Store::enter_run_folders() {
                  {hash, request});
     } else if (fs::exists(entry.path() / kFailure)) {
       const auto failure = nlohmann::json::parse(read_text(entry.path() / kFailure), nullptr, false);
-      if (!failure.is_object()) continue;
+      if (!is_failure(failure)) continue;  // to be made again
       index_.run(
           "INSERT OR IGNORE INTO runs (hash, status, exit_status, message, request) "
           "VALUES (?, 'failed', ?, ?, ?)",
-          {hash, std::int64_t{failure.value("exit_status", 4)}, failure.value("message", ""), request});
+          {hash, failure["exit_status"].get<std::int64_t>(), failure["message"].get<std::string>(), request});
     } else {
       continue;
     }
@@ -194,7 +212,7 @@ void Store::finish(const std::string& hash, const std::optional<Effort>& effort)
 void Store::fail(const std::string& hash, int exit_status, const std::string& message) {
   Transaction transaction(index_);
   if (record(hash).status == RunStatus::done) return;
-  make_folder(part_folder(hash));
+  make_inner_folder(part_folder(hash));
   const auto rows = index_.run("SELECT request FROM runs WHERE hash = ?", {hash});
   write_text(part_folder(hash) / "request.json", value_or<std::string>(rows[0][0], ""));
   const nlohmann::ordered_json json = {{"exit_status", exit_status}, {"message", message}};

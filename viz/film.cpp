@@ -21,15 +21,16 @@ std::string picture_name(std::size_t k) {
   return fmt::format("frame_{:04d}.png", k);
 }
 
-/// Runs a program found on PATH, silent and without a shell. Its exit status; nothing where it cannot be
-/// started or was killed. Ends it where the user stops the program.
-std::optional<int> run_program(std::vector<std::string> words) {
+/// Runs a program found on PATH in a folder, silent and without a shell. Its exit status; nothing where it
+/// cannot be started or was killed. Ends it where the user stops the program.
+std::optional<int> run_program(std::vector<std::string> words, const fs::path& folder) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   for (int fd : {0, 1, 2}) posix_spawn_file_actions_addopen(&actions, fd, "/dev/null", O_RDWR, 0);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   pid_t child = 0;
   const int failed = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -50,6 +51,7 @@ std::optional<fs::path> make_video(const fs::path& folder, std::size_t pictures,
   const std::size_t rate = std::max<std::size_t>(10, pictures / 10);
   try {
     write_atomically(video, [&](const fs::path& temporary) {
+      // Its folder's name may hold what the program would take for a pattern or a protocol.
       const auto status = run_program({"ffmpeg",
                                        "-y",
                                        "-nostdin",
@@ -58,7 +60,7 @@ std::optional<fs::path> make_video(const fs::path& folder, std::size_t pictures,
                                        "-start_number",
                                        "0",
                                        "-i",
-                                       (folder / "frame_%04d.png").string(),
+                                       "frame_%04d.png",
                                        "-threads",
                                        "1",
                                        "-c:v",
@@ -77,7 +79,8 @@ std::optional<fs::path> make_video(const fs::path& folder, std::size_t pictures,
                                        "comment=" + comment,
                                        "-f",
                                        "mp4",
-                                       temporary.string()});
+                                       "file:" + fs::absolute(temporary).string()},
+                                      folder);
       if (!status)
         throw ComputationFailed("no film: ffmpeg could not be run; the pictures are in " + folder.string());
       if (*status == 127)
@@ -89,7 +92,7 @@ std::optional<fs::path> make_video(const fs::path& folder, std::size_t pictures,
   } catch (const ComputationFailed& reason) {
     std::error_code ignored;
     fs::remove(video, ignored);  // of an earlier run: it would not show these pictures
-    say(reason.what());
+    warn(reason.what());
     return std::nullopt;
   }
   return video;
@@ -100,7 +103,7 @@ std::optional<fs::path> make_video(const fs::path& folder, std::size_t pictures,
 Film make_film(const Display& display, const View& view, const std::vector<fs::path>& frames,
                const Stage& stage, const ColourRange& range, const fs::path& folder, PictureSize size,
                const std::string& comment) {
-  make_folder(folder);
+  make_inner_folder(folder);
   Film film;
   Progress progress("film", static_cast<double>(frames.size()));
   for (std::size_t k = 0; k < frames.size(); ++k) {
@@ -110,7 +113,8 @@ Film make_film(const Display& display, const View& view, const std::vector<fs::p
               comment);
     progress.update(static_cast<double>(k + 1), fmt::format("picture {} of {}", k + 1, frames.size()));
   }
-  for (std::size_t k = frames.size(); fs::remove(folder / picture_name(k)); ++k) {
+  for (std::size_t k = frames.size(); fs::exists(folder / picture_name(k)); ++k) {
+    remove_output(folder / picture_name(k));
   }
   film.video = make_video(folder, film.pictures.size(), comment);
   return film;

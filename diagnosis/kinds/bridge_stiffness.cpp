@@ -89,6 +89,16 @@ Columns simulate(const Observation& observation, const Simulated& simulated) {
   return at_gap(observation, simulated.sample, gap_of(observation, simulated.sample));
 }
 
+/// One row in another unit than the others is off by a power of a thousand.
+void check_rows(const Observation& observation, const std::string& column, const std::vector<double>& values) {
+  constexpr double kApart = 200.0;
+  const double middle = median(values);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (values[k] < middle / kApart || values[k] > middle * kApart)
+      bad_input("{}: {}: row {}: found {:.3g}, {:.2g} times the median of the column's rows; expected one unit in all",
+                observation.file.string(), column, k + 1, observation.column(column)[k], values[k] / middle);
+}
+
 /// A stiffness that is a power of a thousand off is in another unit.
 void check_unit(const Sample& believed, const Observation& observation) {
   const Columns expected = at_gap(observation, believed, gap_of(observation, believed));
@@ -98,6 +108,7 @@ void check_unit(const Sample& believed, const Observation& observation) {
     for (std::size_t k = 0; k < observation.rows(); ++k)
       ratios.push_back(observation.column(name)[k] / expected.at(name)[k]);
     const double ratio = median(ratios);
+    check_rows(observation, name, ratios);
     if (ratio > kLeastRatio && ratio < kMostRatio) continue;
     const auto fits = [&](double factor) { return ratio * factor > kLeastRatio && ratio * factor < kMostRatio; };
     const char* unit = fits(1e3)    ? "; in kN/m or N/mm it would fit"
@@ -131,6 +142,8 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
   const double beads = kUm * believed.beads.diameter;
   check_length(observation, "D_um", 0.05 * beads, 20.0 * beads);
   check_length(observation, "d_um", 0.01 * median(diameter), median(diameter));
+  check_rows(observation, "D_um", diameter);
+  check_rows(observation, "d_um", d);
   for (std::size_t k = 0; k < d.size(); ++k)
     if (d[k] >= diameter[k])
       bad_input("{}: found a bridge of {:.4g} um on beads of {:.4g} um, expected it to be thinner", file, d[k],

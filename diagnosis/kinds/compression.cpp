@@ -42,9 +42,29 @@ void check_order(const Observation& observation) {
               observation.file.string(), strain.front(), *std::min_element(strain.begin(), strain.end()));
 }
 
+/// Unloading turns a test round a few times, rows out of order turn it round at every other one.
+void check_turns(const Observation& observation) {
+  constexpr double kStep = 0.02;  // of the largest strain: smaller ones may be noise
+  const auto& strain = observation.column("strain");
+  const double step = kStep * last_strain(observation);
+  std::size_t turns = 0;
+  bool rising = true;
+  double from = strain.front();
+  for (const double now : strain) {
+    if (std::fabs(now - from) < step) continue;
+    turns += (now > from) != rising;
+    rising = now > from;
+    from = now;
+  }
+  if (turns > std::max<std::size_t>(3, strain.size() / 4))
+    bad_input("{}: strain: found {} turns in {} rows, expected rows in order of time", observation.file.string(), turns,
+              strain.size());
+}
+
 void check(const Sample& believed, Observation& observation, std::vector<std::string>&) {
   check_strain(observation, "strain");
   check_order(observation);
+  check_turns(observation);
   const auto &strain = observation.column("strain"), &stress = observation.column("stress_pa");
   const auto peak = static_cast<std::size_t>(std::max_element(stress.begin(), stress.end()) - stress.begin());
   if (stress[peak] <= 0.0 || strain[peak] <= 0.0)

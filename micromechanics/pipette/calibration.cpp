@@ -1,7 +1,5 @@
 #include "pipette/calibration.h"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/nearest.h"
+#include "base/toml_place.h"
 
 namespace pendular::pipette {
 namespace {
@@ -54,7 +53,7 @@ class Keys {
     const toml::node& node = at(name);
     if (!node.is_number())
       bad_input("{}: found no number, expected one from {} to {}", where(name), lowest, highest);
-    const double value = node.value<double>().value();
+    const double value = nearest_double(node);
     if (!(value >= lowest && value <= highest))
       bad_input("{}: found {}, expected a number from {} to {}", where(name), value, lowest, highest);
     return value;
@@ -76,8 +75,7 @@ class Keys {
     std::vector<double> values;
     if (array)
       for (const auto& item : *array)
-        if (item.is_number() && std::isfinite(item.value<double>().value()))
-          values.push_back(item.value<double>().value());
+        if (item.is_number() && std::isfinite(nearest_double(item))) values.push_back(nearest_double(item));
     if (!array || values.size() != size || array->size() != size)
       bad_input("{}: expected {}", where(name), expected);
     return values;

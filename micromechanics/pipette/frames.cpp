@@ -151,6 +151,13 @@ std::size_t FrameSource::expected() const {
   return static_cast<std::size_t>(std::max(0.0, state_->video.get(cv::CAP_PROP_FRAME_COUNT)));
 }
 
+std::vector<fs::path> FrameSource::files() const {
+  if (state_->images.empty()) return {state_->path};
+  std::vector<fs::path> all;
+  for (const auto& image : state_->images) all.push_back(image.path);
+  return all;
+}
+
 fs::path FrameSource::origin() const {
   return state_->origin;
 }

@@ -37,6 +37,9 @@ class FrameSource {
   /// What the frames come from: the file, or the images' folder.
   fs::path origin() const;
 
+  /// The video, or the images in their order.
+  std::vector<fs::path> files() const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;

@@ -148,7 +148,7 @@ void write_film(const fs::path& film, const fs::path& frames, const Measurement&
       Sheet sheet(frame->image);
       draw_frame(sheet, m, k);
       const cv::Size even(sheet.picture().cols / 2 * 2, sheet.picture().rows / 2 * 2);
-      if (k == 0 && !writer.open(temporary.string(),
+      if (k == 0 && !writer.open(temporary.string(), cv::CAP_FFMPEG,
                                  film.extension() == ".avi" ? cv::VideoWriter::fourcc('M', 'J', 'P', 'G')
                                                             : cv::VideoWriter::fourcc('m', 'p', '4', 'v'),
                                  std::clamp(m.calibration.frame_rate, 1.0, 60.0), even))

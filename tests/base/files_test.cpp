@@ -60,5 +60,70 @@ TEST(Files, FolderWhereAFileIs) {
   EXPECT_THROW(write_text(folder / "absent" / "file", "text"), ComputationFailed);
 }
 
+TEST(Files, InputsAreNeitherWrittenNorRemovedUnderAnyName) {
+  ScratchFolder folder;
+  write_text(folder / "in.txt", "input");
+  write_text(folder / "slices.txt", "no slice");
+  fs::create_directory(folder / "slices");
+  write_text(folder / "slices" / "1.tif", "slice");
+  fs::create_symlink("in.txt", folder / "link.txt");
+  fs::create_hard_link(folder / "in.txt", folder / "hard.txt");
+  protect_inputs({folder / "in.txt", folder / "slices" / "1.tif", ""});
+  for (const char* name : {"in.txt", "link.txt", "hard.txt", "slices/1.tif", "slices/../in.txt"}) {
+    EXPECT_THROW(write_text(folder / name, "output"), BadUsage) << name;
+    EXPECT_THROW(require_writable(folder / name), BadUsage) << name;
+    EXPECT_THROW(require_outputs({folder / name}), BadUsage) << name;
+    EXPECT_THROW(remove_output(folder / name), BadUsage) << name;
+  }
+  EXPECT_EQ(read_text(folder / "in.txt"), "input");
+  protect_inputs({});
+  write_text(folder / "in.txt", "output");
+}
+
+TEST(Files, EachOutputIsAFileOfItsOwn) {
+  ScratchFolder folder;
+  write_text(folder / "a.csv", "");
+  fs::create_symlink("a.csv", folder / "b.csv");
+  EXPECT_THROW(require_outputs({folder / "new.csv", folder / "new.csv"}), BadUsage);
+  EXPECT_THROW(require_outputs({folder / "new.csv", folder / "." / "new.csv"}), BadUsage);
+  EXPECT_THROW(require_outputs({folder / "a.csv", folder / "b.csv"}), BadUsage);
+  EXPECT_NO_THROW(require_outputs({folder / "a.csv", folder / "c.csv", "", ""}));
+}
+
+TEST(Files, DevicesAreNotReplaced) {
+  EXPECT_THROW(write_text("/dev/null", "text"), BadInput);
+  EXPECT_THROW(require_writable("/dev/full"), BadInput);
+}
+
+TEST(Files, WrittenTogetherOrNoneOfThem) {
+  ScratchFolder folder;
+  write_text(folder / "a.txt", "old");
+  {
+    WrittenTogether written;
+    write_text(folder / "a.txt", "new");
+    write_text(folder / "b.txt", "new");
+    EXPECT_EQ(read_text(folder / "a.txt"), "old");
+  }
+  EXPECT_EQ(read_text(folder / "a.txt"), "old");
+  EXPECT_EQ(entries(folder.path()), 1u);
+  {
+    WrittenTogether written;
+    write_text(folder / "a.txt", "new");
+    write_text(folder / "b.txt", "new");
+    written.commit();
+  }
+  EXPECT_EQ(read_text(folder / "a.txt"), "new");
+  EXPECT_EQ(read_text(folder / "b.txt"), "new");
+  EXPECT_EQ(entries(folder.path()), 2u);
+}
+
+TEST(Files, AnInnerFolderIsNoLink) {
+  ScratchFolder folder;
+  fs::create_directory(folder / "elsewhere");
+  fs::create_directory_symlink("elsewhere", folder / "frames");
+  EXPECT_THROW(make_inner_folder(folder / "frames"), BadInput);
+  EXPECT_NO_THROW(make_inner_folder(folder / "elsewhere"));
+}
+
 }  // namespace
 }  // namespace pendular

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <sstream>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -84,6 +85,7 @@ TEST(Sample, ItsTextReadsBackBitForBit) {
       for (const auto& key : sample_keys()) {
         if (key.name.find("stiffness_n_per_m") != std::string::npos || !std::isfinite(key.highest)) continue;
         if (key.name == "compression.speed_mm_s" || key.name == "compression.hold_s" ||
+            key.name == "compression.stress_rate_pa_s" || key.name == "compression.max_stress_pa" ||
             key.name == "bridges.relaxation_time_s")
           continue;
         EXPECT_EQ(sample_key(again, key.name), sample_key(sample, key.name)) << key.name;
@@ -125,6 +127,49 @@ TEST(Sample, TheProjectsOwnSamplesAreValid) {
   for (const char* name : {"hemmerle2021_a", "hemmerle2021_b", "demo"})
     EXPECT_NO_THROW(read_sample(fs::path(PENDULAR_SOURCE_DIR) / "samples" / (std::string(name) + ".toml")))
         << name;
+}
+
+/// A file with every line of the text but those that hold `key`.
+std::string without(const std::string& key) {
+  std::istringstream lines(sample_text(Sample{}));
+  std::string text;
+  for (std::string line, section; std::getline(lines, line);) {
+    if (line.starts_with('[')) section = line.substr(1, line.size() - 2);
+    if (section + "." + line.substr(0, line.find(' ')) != key) text += line + "\n";
+  }
+  return text;
+}
+
+TEST(Sample, WhatASpecimenIsHasNoDefault) {
+  EXPECT_NO_THROW(whole_sample(without(""), "s.toml"));
+  EXPECT_THROW(whole_sample("", "s.toml"), BadInput);
+  for (const char* key : {"beads.diameter_um", "beads.density_kg_m3", "bridges.youngs_modulus_pa",
+                          "bridges.interfacial_energy_j_m2", "contact.friction", "specimen.height_um",
+                          "compression.max_strain"}) {
+    try {
+      whole_sample(without(key), "s.toml");
+      FAIL() << key << " has a default";
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << error.what();
+    }
+    EXPECT_NO_THROW(whole_sample(without(key), "s.toml", {{key, sample_key(Sample{}, key)}}));
+  }
+  EXPECT_NO_THROW(whole_sample(without("contact.damping_fraction"), "s.toml"));
+}
+
+TEST(Sample, WhatEarlierVersionsLackIsNamed) {
+  ::testing::internal::CaptureStderr();
+  warn_of_later_keys(without("contact.bond_friction_limit"), "s.toml");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(),
+            "warning: s.toml: lacks contact.bond_friction_limit, as samples of earlier versions do: taken as "
+            "docs/sample.md says\n");
+  ::testing::internal::CaptureStderr();
+  warn_of_later_keys(without(""), "s.toml");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Sample, AnIntegerBetweenTwoDoublesIsANumber) {
+  EXPECT_THROW(parse_sample("[specimen]\nvolume_fraction = 9000000000000000001\n", "s.toml"), BadInput);
 }
 
 struct BadSample {

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "effects/list.h"
+#include "sample_file.h"
 #include "scratch.h"
 #include "toy_runs.h"
 
@@ -36,7 +37,7 @@ volume_fraction = 0.58
 class Diagnose : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_text(folder / "sample.toml", kSample);
+    write_text(folder / "sample.toml", pendular::test::sample_file(kSample));
     truth = read_sample(folder / "sample.toml");
   }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "sample_file.h"
 #include "scratch.h"
 
 namespace pendular::diagnosis {
@@ -15,7 +16,7 @@ constexpr char kCurve[] =
 
 /// A folder with a good experiment, one file of which may be replaced.
 fs::path written(const ScratchFolder& folder, const std::string& file = "", const std::string& text = "") {
-  write_text(folder / "sample.toml", "[bridges]\nyoungs_modulus_pa = 1.5e6\n");
+  write_text(folder / "sample.toml", pendular::test::sample_file("[bridges]\nyoungs_modulus_pa = 1.5e6\n"));
   write_text(folder / "A.csv", kCurve);
   write_text(folder / "z.csv", "z,z_sigma\n7.1,0.1\n");
   write_text(folder / "e.toml",

@@ -9,6 +9,7 @@
 #include "diagnosis/experiment.h"
 #include "followed.h"
 #include "packing/tables.h"
+#include "sample_file.h"
 #include "scratch.h"
 
 namespace pendular::diagnosis {
@@ -26,7 +27,8 @@ class FieldReadingsTest : public ::testing::Test {
   void SetUp() override {
     write_beads(folder / "beads.csv", followed_specimen(), {});
     write_text(folder / "sample.toml",
-               "[beads]\ndiameter_um = 200\n[specimen]\ndiameter_um = 1300\nheight_um = 1200\n");
+               pendular::test::sample_file(
+                   "[beads]\ndiameter_um = 200\n[specimen]\ndiameter_um = 1300\nheight_um = 1200\n"));
     write_text(
         folder / "e.toml",
         "[experiment]\nsample = \"sample.toml\"\n[[observation]]\nkind = \"displacements\"\nname = \"scan\"\n"

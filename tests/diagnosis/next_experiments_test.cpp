@@ -112,8 +112,8 @@ TEST_F(Planning, BridgesCountedTellMissingOnesFromASofterPolymer) {
   // Nothing acts on what the toy breaks.
   EXPECT_EQ(found(steps, "acoustic"), nullptr);
   for (std::size_t k = 1; k < steps.experiments.size(); ++k)
-    EXPECT_GE(steps.experiments[k - 1].gain / steps.experiments[k - 1].cost,
-              steps.experiments[k].gain / steps.experiments[k].cost);
+    EXPECT_GE(steps.experiments[k - 1].gain / (0.5 + steps.experiments[k - 1].cost),
+              steps.experiments[k].gain / (0.5 + steps.experiments[k].cost));
 }
 
 TEST_F(Planning, WithoutRunsOnlyWhatTheBankShowsIsReckoned) {

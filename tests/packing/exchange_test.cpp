@@ -56,17 +56,17 @@ TEST(ExchangeFormats, OtherLammpsStyles) {
   const std::string head = "title 3 atoms\n\n2 atoms\n 1 bonds # that many\n1 atom types\n-1 1 xlo xhi\n\n";
   const std::string tail = "\nVelocities\n\n1 0 0 0\n2 0 0 0\n\nBond Coeffs\n\n1 5\n\nBonds\n\n1 1 8 3\n";
   const std::string lines[] = {
-      "Atoms # sphere\n\n8 1 0.5 2500 1 2 3 0 0 0\n3 1 0.4 2500 1 2.6 3\n",
-      "Atoms # bpm/sphere\n\n8 1 1 0.5 2500 1 2 3\n3 1 1 0.4 2500 1 2.6 3\n",
-      "Atoms # hybrid sphere bond\n\n8 1 1 2 3 0.5 2500 1\n3 1 1 2.6 3 0.4 2500 1\n"};
+      "Atoms # sphere\n\n8 1 5e-4 2500 1e-3 2e-3 3e-3 0 0 0\n3 1 4e-4 2500 1e-3 2.6e-3 3e-3\n",
+      "Atoms # bpm/sphere\n\n8 1 1 5e-4 2500 1e-3 2e-3 3e-3\n3 1 1 4e-4 2500 1e-3 2.6e-3 3e-3\n",
+      "Atoms # hybrid sphere bond\n\n8 1 1e-3 2e-3 3e-3 5e-4 2500 1\n3 1 1e-3 2.6e-3 3e-3 4e-4 2500 1\n"};
   for (const auto& atoms : lines) {
     write_text(scratch / "a.data", head + atoms + tail);
     const Packing read = read_exchange(scratch / "a.data", ExchangeFormat::lammps);
     ASSERT_EQ(read.beads.size(), 2u) << atoms;
-    EXPECT_EQ(read.beads[1].centre, Vec3(1, 2.6, 3)) << atoms;
-    EXPECT_EQ(read.beads[1].diameter, 0.4) << atoms;
+    EXPECT_EQ(read.beads[1].centre, Vec3(1e-3, 2.6e-3, 3e-3)) << atoms;
+    EXPECT_EQ(read.beads[1].diameter, 4e-4) << atoms;
     ASSERT_EQ(read.bridges.size(), 1u) << atoms;
-    EXPECT_NEAR(read.bridges[0].gap, 0.15, 1e-12) << atoms;
+    EXPECT_NEAR(read.bridges[0].gap, 1.5e-4, 1e-15) << atoms;
   }
 }
 

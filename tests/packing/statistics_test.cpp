@@ -131,16 +131,18 @@ TEST(Statistics, SpecimenIsFoundAroundItsBeads) {
 TEST(Statistics, FinneyPacking) {
   const auto file = test::shared_data("finney/FinneyPack.txt");
   if (!file) GTEST_SKIP() << "Finney's coordinates are not in the shared data";
-  Packing packing = read_exchange(*file, ExchangeFormat::xyz, 2.0);  // 1 length unit = 1 ball radius
-  for (auto& bead : packing.beads) bead.boundary = bead.centre.norm() > 14.0;
-  EXPECT_NEAR(coordination(packing.beads, candidate_bridges(packing.beads, 0.064 * 2.0)).mean, 8.2, 0.1);
-  const double fraction = volume_fraction_within(packing.beads, {22.0, 22.0, 0, 0, -11.0});
+  constexpr double radius = 1e-4;  // m
+  Packing packing = read_exchange(*file, ExchangeFormat::xyz, 2.0 * radius);
+  for (auto& bead : packing.beads) bead.boundary = bead.centre.norm() > 14.0 * radius;
+  EXPECT_NEAR(coordination(packing.beads, candidate_bridges(packing.beads, 0.064 * 2.0 * radius)).mean, 8.2, 0.1);
+  const double fraction =
+      volume_fraction_within(packing.beads, {22.0 * radius, 22.0 * radius, 0, 0, -11.0 * radius});
   EXPECT_GT(fraction, 0.637 - 0.001);
   EXPECT_LT(fraction, 0.639 + 0.001);
 
   std::vector<double> nearest(packing.beads.size(), 1e9);
-  for (const auto& pair : candidate_bridges(packing.beads, 1.0))
-    for (const int end : {pair.i, pair.j}) nearest[end] = std::min(nearest[end], pair.gap + 2.0);
+  for (const auto& pair : candidate_bridges(packing.beads, radius))
+    for (const int end : {pair.i, pair.j}) nearest[end] = std::min(nearest[end], pair.gap / radius + 2.0);
   std::nth_element(nearest.begin(), nearest.begin() + nearest.size() / 2, nearest.end());
   EXPECT_NEAR(nearest[nearest.size() / 2], 1.9952, 2e-4);
 }

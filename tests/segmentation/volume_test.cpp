@@ -1,6 +1,7 @@
 #include "segmentation/volume.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -228,6 +229,76 @@ TEST(Volume, NrrdNamesItsUnit) {
   EXPECT_NEAR(read_volume(folder / "plain.nrrd").spacing, 5e-9, 1e-18);
   write_bytes(folder / "short.nrrd", head + "\n" + bytes_of(volume).substr(7));
   EXPECT_NE(error_of(folder / "short.nrrd"), "");
+}
+
+std::string deflated(const std::string& bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string out(size, '\0');
+  compress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+           bytes.size());
+  return out.substr(0, size);
+}
+
+TEST(Volume, CompressedAndWrittenOutVoxelsAreTheSame) {
+  const ScratchFolder folder;
+  const Volume volume = ramp();
+  const std::string head = "NDims = 3\nElementSpacing = 2 2 2\nDimSize = 5 4 3\nElementType = MET_USHORT\n";
+  const std::string packed = deflated(bytes_of(volume));
+  const std::string size = "CompressedDataSize = " + std::to_string(packed.size()) + "\n";
+  for (const std::string& more : {"CompressedData = True\n" + size, std::string("CompressedData = True\n")}) {
+    write_bytes(folder / "a.mha", head + more + "ElementDataFile = LOCAL\n" + packed);
+    EXPECT_TRUE(same_grey(read_volume(folder / "a.mha"), volume)) << more;
+  }
+  write_bytes(folder / "a.mha",
+              head + "CompressedData = True\nElementDataFile = LOCAL\n" + packed.substr(0, 20));
+  EXPECT_NE(error_of(folder / "a.mha").find("once inflated, expected 120"), std::string::npos);
+  std::string text;
+  for (const auto grey : std::get<std::vector<std::uint16_t>>(volume.pixels))
+    text += std::to_string(grey) + "\n";
+  write_bytes(folder / "a.mha", head + "BinaryData = False\nElementDataFile = LOCAL\n" + text);
+  EXPECT_TRUE(same_grey(read_volume(folder / "a.mha"), volume));
+  write_bytes(
+      folder / "a.nrrd",
+      "NRRD0004\ntype: uint16\ndimension: 3\nsizes: 5 4 3\nencoding: text\nspacings: 2 2 2\n\n" + text);
+  EXPECT_TRUE(same_grey(read_volume(folder / "a.nrrd"), volume));
+  write_bytes(
+      folder / "a.nrrd",
+      "NRRD0004\ntype: uint16\ndimension: 3\nsizes: 5 4 3\nencoding: text\nspacings: 2 2 2\n\n70000 " + text);
+  EXPECT_NE(error_of(folder / "a.nrrd").find("from 0 to 65535"), std::string::npos);
+}
+
+TEST(Volume, SlicesByListAndPattern) {
+  const ScratchFolder folder;
+  const Volume volume = ramp();
+  const std::string data = bytes_of(volume);
+  for (int k = 0; k < 3; ++k)
+    write_bytes(folder / fmt::format("s{:02d}.raw", k + 7), "head" + data.substr(40 * k, 40));
+  const std::string meta =
+      "NDims = 3\nHeaderSize = 4\nElementSpacing = 2 2 2\nDimSize = 5 4 3\nElementType = "
+      "MET_USHORT\nElementDataFile = ";
+  const std::string nrrd =
+      "NRRD0004\ntype: ushort\ndimension: 3\nsizes: 5 4 3\nendian: little\nencoding: raw\n"
+      "spacings: 2 2 2\nbyte skip: 4\ndata file: ";
+  const struct {
+    const char* name;
+    std::string bytes;
+  } cases[] = {{"a.mhd", meta + "LIST\ns07.raw\ns08.raw\ns09.raw\n"},
+               {"b.mhd", meta + "s%02d.raw 7 9 1\n"},
+               {"c.mhd", meta + "s%02d.raw 7\n"},
+               {"a.nhdr", nrrd + "LIST\ns07.raw\ns08.raw\ns09.raw\n"},
+               {"b.nhdr", nrrd + "s%02d.raw 7 9 1 2\n"}};
+  for (const auto& c : cases) {
+    write_bytes(folder / c.name, c.bytes);
+    const Volume read = read_volume(folder / c.name);
+    EXPECT_TRUE(same_grey(read, volume)) << c.name;
+    EXPECT_EQ(volume_files(folder / c.name).size(), 4u);
+  }
+  write_bytes(folder / "s08.raw", "head" + data.substr(40, 39));
+  for (const auto& c : cases)
+    EXPECT_NE(error_of(folder / c.name).find("s08.raw: found 3"), std::string::npos) << c.name;
+  fs::remove(folder / "s08.raw");
+  for (const auto& c : cases)
+    EXPECT_NE(error_of(folder / c.name).find("s08.raw"), std::string::npos) << c.name;
 }
 
 TEST(Volume, BadInputIsOneLine) {

@@ -60,9 +60,9 @@ TEST(Plan, EachRealisationMayHaveAPackingOfItsOwn) {
 TEST(Plan, PolymerContentScalesTheNeckThatTheOtherKeysSet) {
   ScratchFolder folder;
   write_sweep(folder.path(), "[grid]\nW = [0.01, 0.04]\n\"bridges.diameter_um\" = [60]\n",
-              test::tiny_sample() + "[beads]\ndiameter_um = 201\n[bridges.x]\n");
+              test::tiny_sample() + "[bridges.x]\n");
   EXPECT_THROW(plan_in(folder.path()), BadInput) << "the sample has a section that it must not have";
-  write_text(folder / "s.toml", "[bridges]\npolymer_content = 0.01\n");
+  write_text(folder / "s.toml", test::sample_file("[bridges]\npolymer_content = 0.01\n"));
   const Plan plan = plan_in(folder.path());
   ASSERT_EQ(plan.requests.size(), 2u);
   EXPECT_NEAR(plan.requests[0].sample.bridges.diameter, 60e-6, 1e-18);
@@ -105,7 +105,7 @@ class SweepBadInput : public testing::TestWithParam<BadSweep> {};
 TEST_P(SweepBadInput, NamesFileLineKeyAndExpectation) {
   ScratchFolder folder;
   write_text(folder / "s.toml", test::tiny_sample());
-  write_text(folder / "measured.toml", test::tiny_sample() + "[beads]\ndiameters = \"measured\"\n");
+  write_text(folder / "measured.toml", test::tiny_sample("max_strain = 0.01\n", "[beads]\ndiameters = \"measured\"\n"));
   write_text(folder / "noise.vtp", "no packing");
   write_text(folder / "sweep.toml", GetParam().text);
   try {

@@ -1,0 +1,17 @@
+#include "fuzz.h"
+#include "segmentation/voxel_header.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace pendular;
+  static const bool slices = [] {
+    for (const char* name : {"s1.raw", "s2.raw", "s3.raw"}) write_text(fuzz::folder() / name, "12345678");
+    return true;
+  }();
+  return fuzz::read_bytes(data, slices ? size : 0, "v.mhd", [](const fs::path& path) {
+    const VoxelHeader header = read_meta_header(path);
+    Volume volume;
+    volume.size = header.size;
+    volume.pixels = header.pixels;
+    if (volume.voxels() < 1 << 20) read_voxels(header, path, volume);
+  });
+}
