@@ -49,7 +49,7 @@ Range range_of(const std::string& column) {
 void require_in_range(const std::string& where, const std::string& what, const Range& range, double value) {
   if (range.holds(value)) return;
   if (!std::isfinite(value)) bad_input("{}: {}: found {}, expected a finite number", where, what, value);
-  bad_input("{}: {}: found {}, expected a number from {} to {} (wrong unit?)", where, what, value,
+  bad_input("{}: {}: found {:.6g}, expected a number from {:.6g} to {:.6g} (wrong unit?)", where, what, value,
             range.lowest, range.highest);
 }
 

@@ -5,8 +5,6 @@
 #include <itkMetaImageIO.h>
 #include <itkTIFFImageIO.h>
 
-#include <iostream>
-
 #include "base/error.h"
 
 namespace pendular {
@@ -17,12 +15,6 @@ itk::IOComponentEnum component(const Volume& volume) {
                                                  itk::IOComponentEnum::FLOAT, itk::IOComponentEnum::UINT};
   return components[volume.pixels.index()];
 }
-
-/// The library prints what it cannot write; the user gets one line, from here.
-struct SilentErrors {
-  std::streambuf* usual = std::cerr.rdbuf(nullptr);
-  ~SilentErrors() { std::cerr.rdbuf(usual); }
-};
 
 itk::ImageIOBase::Pointer writer_of(const fs::path& path, const Volume& volume) {
   const std::string extension = lower_extension(path);
@@ -69,11 +61,11 @@ void write_volume(const fs::path& path, const Volume& volume, const Provenance& 
                                             to_json(provenance).dump());
     io->SetFileName(temporary.string());
     try {
-      const SilentErrors silent;
+      const QuietLibraries quiet;
       with_pixels(volume, [&](auto pixels) { io->Write(pixels.data()); });
     } catch (const itk::ExceptionObject& error) {
       throw ComputationFailed(
-          fmt::format("{}: cannot be written: {}", path.string(), error.GetDescription()));
+          fmt::format("{}: cannot be written: {}", path.string(), first_line(error.GetDescription())));
     }
     // The library does not always say that the disc is full.
     const auto bytes = with_pixels(volume, [](auto pixels) { return pixels.size_bytes(); });

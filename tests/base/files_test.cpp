@@ -91,8 +91,14 @@ TEST(Files, EachOutputIsAFileOfItsOwn) {
 }
 
 TEST(Files, DevicesAreNotReplaced) {
-  EXPECT_THROW(write_text("/dev/null", "text"), BadInput);
-  EXPECT_THROW(require_writable("/dev/full"), BadInput);
+  ScratchFolder folder;
+  for (const char* device : {"/dev/null", "/dev/full", "/proc/self/fd/1"}) {
+    fs::create_symlink(device, folder / "sink");  // a failure must not replace the device itself
+    EXPECT_THROW(write_text(folder / "sink", "text"), BadInput) << device;
+    EXPECT_THROW(require_writable(folder / "sink"), BadInput) << device;
+    EXPECT_TRUE(fs::is_symlink(folder / "sink"));
+    fs::remove(folder / "sink");
+  }
 }
 
 TEST(Files, WrittenTogetherOrNoneOfThem) {

@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"TooFewRows", "A.csv", "strain,stress_pa\n0,0\n0.1,1e5\n", "at least 8"},
         Bad{"NotANumber", "z.csv", "z,z_sigma\nseven,0.1\n", "seven"},
         Bad{"CoordinationOfForty", "z.csv", "z,z_sigma\n40,0.1\n", "0 to 14"},
-        Bad{"NegativeSigma", "z.csv", "z,z_sigma\n7,-0.1\n", "negative"},
+        Bad{"NegativeSigma", "z.csv", "z,z_sigma\n7,-0.1\n", "expected a number from 0"},
         Bad{"UnknownKind", "e.toml", kHead + "[[observation]]\nkind = \"compresion\"\nfile = \"A.csv\"\n",
             "\"compression\""},
         Bad{"UnknownKey", "e.toml", kHead + kOne + "fiel = 3\n", "observation.file"},

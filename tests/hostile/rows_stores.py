@@ -75,7 +75,7 @@ def indices():
 
 def run_folders():
     for name in ("curve.csv", "result.json", "frames/frame_0000.vtp"):
-        for word, content in {"empty": "", "zeros": bytes(1000), "{}": "{}"}.items():
+        for word, content in {"empty": "", "zeros": bytes(1000), "[1]": "[1]"}.items():
             yield Row(f"render a run whose {name} is {word}", "$P render run -o out --no-film --quiet", 3, name.split("/")[-1],
                       file("run/" + name, content))
     for odd in ("inf", "nan", "1e300", ""):

@@ -71,7 +71,11 @@ TEST(Plan, PolymerContentScalesTheNeckThatTheOtherKeysSet) {
 
 TEST(Plan, AVariedKeyCountsAsIfTheSampleFileHadIt) {
   ScratchFolder folder;
-  write_sweep(folder.path(), "[grid]\n\"contact.friction\" = [0.1, 0.2]\n");
+  std::string sample = test::tiny_sample();
+  const std::string stated = "platen_friction = 0.5\n";
+  ASSERT_NE(sample.find(stated), std::string::npos);
+  sample.erase(sample.find(stated), stated.size());  // then a platen is like another bead
+  write_sweep(folder.path(), "[grid]\n\"contact.friction\" = [0.1, 0.2]\n", sample);
   const Plan plan = plan_in(folder.path());
   EXPECT_DOUBLE_EQ(plan.requests[1].sample.contact.platen_friction, 0.2) << "platens are like beads";
 }
@@ -105,7 +109,8 @@ class SweepBadInput : public testing::TestWithParam<BadSweep> {};
 TEST_P(SweepBadInput, NamesFileLineKeyAndExpectation) {
   ScratchFolder folder;
   write_text(folder / "s.toml", test::tiny_sample());
-  write_text(folder / "measured.toml", test::tiny_sample("max_strain = 0.01\n", "[beads]\ndiameters = \"measured\"\n"));
+  write_text(folder / "measured.toml",
+             test::tiny_sample("max_strain = 0.01\n", "[beads]\ndiameters = \"measured\"\n"));
   write_text(folder / "noise.vtp", "no packing");
   write_text(folder / "sweep.toml", GetParam().text);
   try {
