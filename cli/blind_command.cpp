@@ -119,7 +119,7 @@ struct OracleOptions {
 };
 
 void oracle(const OracleOptions& options) {
-  apply(options.common);
+  apply(options.common, {});
   check(options.making);
   const fs::path beads = options.making.store_folder(options.common) / "measured";
   const auto measured =

@@ -10,6 +10,7 @@
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/planning.h"
 #include "effects/list.h"
+#include "sample_file.h"
 #include "scratch.h"
 #include "toy_runs.h"
 
@@ -43,7 +44,7 @@ const NextExperiment* found(const NextSteps& steps, const std::string& start) {
 class Planning : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_text(folder / "sample.toml", kSample);
+    write_text(folder / "sample.toml", pendular::test::sample_file(kSample));
     beliefs = *read_beliefs(folder / "sample.toml");
     beliefs.uncertainty["bridges.youngs_modulus_pa"] = 1.5e5;
   }
