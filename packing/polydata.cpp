@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <cstring>
+#include <fstream>
 #include <limits>
 
 #include "base/error.h"
@@ -95,6 +96,12 @@ void read_fields(const PolyXml& xml, PolyTable& table, const fs::path& path) {
 }
 
 constexpr const char* kEnd = "</VTKFile>";
+constexpr const char* kSeal = "<!-- pendular sha256 ";
+
+/// The comment that closes the files written here, so that damage is noticed.
+std::string seal(std::string_view content) {
+  return kSeal + sha256(content) + " -->\n";
+}
 
 /// The bytes of a file that is whole and, if it was written here, undamaged.
 std::string whole_file(const fs::path& path) {
@@ -102,11 +109,11 @@ std::string whole_file(const fs::path& path) {
   const std::size_t end = bytes.rfind(kEnd);
   if (end == std::string::npos)
     bad_input("{}: found no {} at its end, expected a whole VTK XML file (.vtp)", path.string(), kEnd);
-  const std::size_t sealed = bytes.rfind(kPolydataSeal);
+  const std::size_t sealed = bytes.rfind(kSeal);
   if (sealed == std::string::npos &&
       bytes.find_first_not_of(" \r\n\t", end + std::strlen(kEnd)) == std::string::npos)
     return bytes;  // of another program
-  if (sealed == std::string::npos || bytes.substr(sealed) != polydata_seal(std::string_view(bytes).substr(0, sealed)))
+  if (sealed == std::string::npos || bytes.substr(sealed) != seal(std::string_view(bytes).substr(0, sealed)))
     bad_input("{}: found damaged VTK data (its checksum does not match), expected the file as it was written",
               path.string());
   return bytes;
@@ -126,7 +133,14 @@ const T* find_array(const PolyTable& table, bool of_points, const std::string& n
 }  // namespace
 
 void write_polydata(const fs::path& path, const PolyTable& table) {
-  polydata_files().write(path, table);
+  write_atomically(path, [&](const fs::path& temporary) {
+    if (!polydata_files().write(temporary, table))
+      throw ComputationFailed(fmt::format("{}: cannot be written (folder or disc full?)", path.string()));
+    std::ofstream out(temporary, std::ios::binary | std::ios::app);
+    out << seal(read_text(temporary));
+    out.close();
+    if (!out) throw ComputationFailed(fmt::format("{}: cannot be written (disc full?)", path.string()));
+  });
 }
 
 PolyTable read_polydata(const fs::path& path) {

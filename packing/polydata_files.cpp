@@ -18,10 +18,7 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
-#include <fstream>
 #include <mutex>
-
-#include "base/error.h"
 
 namespace pendular {
 namespace {
@@ -138,23 +135,16 @@ vtkSmartPointer<vtkPolyData> to_vtk(const PolyTable& table) {
   return data;
 }
 
-void write(const fs::path& path, const PolyTable& table) {
+bool write(const fs::path& path, const PolyTable& table) {
   const auto data = to_vtk(table);
-  write_atomically(path, [&](const fs::path& temporary) {
-    const VtkMessages messages;
-    vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetInputData(data);
-    writer->SetFileName(temporary.c_str());
-    writer->SetDataModeToAppended();
-    writer->SetCompressorTypeToZLib();
-    writer->SetHeaderTypeToUInt64();
-    if (writer->Write() != 1 || messages.any())
-      throw ComputationFailed(fmt::format("{}: cannot be written (folder or disc full?)", path.string()));
-    std::ofstream out(temporary, std::ios::binary | std::ios::app);
-    out << polydata_seal(read_text(temporary));
-    out.close();
-    if (!out) throw ComputationFailed(fmt::format("{}: cannot be written (disc full?)", path.string()));
-  });
+  const VtkMessages messages;
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(data);
+  writer->SetFileName(path.c_str());
+  writer->SetDataModeToAppended();
+  writer->SetCompressorTypeToZLib();
+  writer->SetHeaderTypeToUInt64();
+  return writer->Write() == 1 && !messages.any();
 }
 
 }  // namespace
