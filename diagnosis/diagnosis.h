@@ -66,7 +66,7 @@ struct NextExperiment {
   double cost = 1.0;     ///< in units of one compression test
   Outlook outlook = {};  ///< once it is made; without cases where runs are missing
   double gain = 0.0;     ///< entropy that it takes off, bits
-  std::size_t runs = 0;  ///< simulations that are missing to reckon it
+  std::size_t runs = 0;  ///< simulations that are missing to reckon it, or failed
 };
 
 /// What could be measured next.

@@ -43,14 +43,18 @@ class Prospect {
     }
   }
 
-  std::size_t missing() const { return runs_.size(); }
+  bool made() const { return runs_.empty(); }
+
+  /// Runs that were not made, or failed.
+  std::size_t missing() const { return runs_.size() + failed_; }
 
   void make(const std::string& name, std::vector<LedgerRow>& ledger) {
     const auto outcomes = (*bank_.make_runs)(name, requests_);
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
       const auto& [point, condition] = runs_[k];
-      tests_[point][condition] =
-          read_outcome(outcomes[k], condition, name + ": ", plan_.points[point].changes, ledger);
+      auto& test = tests_[point][condition];
+      test = read_outcome(outcomes[k], condition, name + ": ", plan_.points[point].changes, ledger);
+      failed_ += !test;
     }
     runs_.clear(), requests_.clear();
   }
@@ -106,7 +110,8 @@ class Prospect {
   Experiment experiment_;
   BankPlan plan_;
   std::vector<SimulatedTests> tests_;
-  std::vector<BankPlan::Run> runs_;
+  std::vector<BankPlan::Run> runs_;  // to be made
+  std::size_t failed_ = 0;
   std::vector<sweep::RunRequest> requests_;
 };
 
@@ -195,7 +200,7 @@ Question question_before(const BankPlan& plan, const std::set<std::string>& abou
 std::vector<Replayed> replayed_with(const BankInHand& bank, const Experiment& experiment,
                                     const std::set<std::string>& effects) {
   Prospect prospect(bank, experiment, effects);
-  return prospect.missing() > 0 ? std::vector<Replayed>{} : prospect.replayed();
+  return prospect.made() ? prospect.replayed() : std::vector<Replayed>{};
 }
 
 NextSteps next_steps(const BankInHand& bank, const Question& question, std::vector<LedgerRow>& ledger) {
@@ -211,8 +216,8 @@ NextSteps next_steps(const BankInHand& bank, const Question& question, std::vect
     } else if (auto more = measurement.added(bank.experiment)) {
       Prospect prospect(bank, std::move(*more), question.effects);
       if (bank.make_runs) prospect.make(measurement.name, ledger);
-      next.runs = prospect.missing();
-      if (next.runs == 0) next.outlook = outlook(prospect.replayed(), question, bank.confidence);
+      if (prospect.made()) next.outlook = outlook(prospect.replayed(), question, bank.confidence);
+      if (next.outlook.cases == 0) next.runs = prospect.missing();
     } else {
       continue;
     }
