@@ -19,6 +19,7 @@ constexpr double kNormalByGap = 0.82, kTangentialByGap = 0.44;  // −dln k/dln 
 // As they are usually measured: so many, of necks between these shares of the mean one, with this relative error.
 constexpr int kUsualBridges = 20;
 constexpr double kThinnest = 0.6, kThickest = 1.4, kUsualError = 0.08;
+constexpr std::size_t kMostKept = 1024;  // tables of bridges whose stiffness is kept
 constexpr int kQuantiles = 9;  // of the gaps in a specimen
 constexpr double kLongest = 0.2;  // gap over bead diameter, as effects/bridge_gap_spread.cpp has it
 
@@ -31,6 +32,7 @@ std::vector<BondStiffness> stiffness_per_pascal(const std::vector<BridgeBody>& b
   for (const auto& body : bodies)
     key.insert(key.end(), {body.neck_diameter, body.gap, body.diameter_i, body.diameter_j});
   const std::lock_guard lock(guard);
+  if (kept.size() == kMostKept && !kept.contains(key)) kept.clear();
   auto& found = kept[key];
   if (found.empty()) found = bridge_stiffnesses(bodies, {1.0, poisson_ratio}).bonds;
   return found;
