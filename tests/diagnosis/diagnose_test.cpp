@@ -17,27 +17,11 @@ namespace {
 
 using pendular::test::ScratchFolder;
 
-constexpr const char* kSample = R"([beads]
-diameter_um = 200
-density_kg_m3 = 2500
-[bridges]
-youngs_modulus_pa = 1.5e6
-poisson_ratio = 0.49
-diameter_um = 74
-gap_um = 2
-[contact]
-friction = 0.5
-[specimen]
-diameter_um = 1500
-height_um = 1500
-volume_fraction = 0.58
-)";
-
 /// Something that the toy stands for, observed and diagnosed with the toy as simulation.
 class Diagnose : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_text(folder / "sample.toml", pendular::test::sample_file(kSample));
+    write_text(folder / "sample.toml", pendular::test::sample_file(test::kToySample));
     truth = read_sample(folder / "sample.toml");
   }
 

@@ -19,22 +19,6 @@ namespace {
 
 using pendular::test::ScratchFolder;
 
-constexpr const char* kSample = R"([beads]
-diameter_um = 200
-density_kg_m3 = 2500
-[bridges]
-youngs_modulus_pa = 1.5e6
-poisson_ratio = 0.49
-diameter_um = 74
-gap_um = 2
-[contact]
-friction = 0.5
-[specimen]
-diameter_um = 1200
-height_um = 1200
-volume_fraction = 0.55
-)";
-
 const NextExperiment* found(const NextSteps& steps, const std::string& start) {
   for (const auto& next : steps.experiments)
     if (next.observation.starts_with(start)) return &next;
@@ -44,8 +28,11 @@ const NextExperiment* found(const NextSteps& steps, const std::string& start) {
 class Planning : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_text(folder / "sample.toml", pendular::test::sample_file(kSample));
+    write_text(folder / "sample.toml", pendular::test::sample_file(test::kToySample));
     beliefs = *read_beliefs(folder / "sample.toml");
+    // Of few beads.
+    auto& specimen = beliefs.sample.specimen;
+    specimen.diameter = specimen.height = 1.2e-3, specimen.volume_fraction = 0.55;
     beliefs.uncertainty["bridges.youngs_modulus_pa"] = 1.5e5;
   }
 

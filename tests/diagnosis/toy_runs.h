@@ -13,6 +13,23 @@
 
 namespace pendular::diagnosis::test {
 
+/// What is believed of the toy.
+inline constexpr const char* kToySample = R"([beads]
+diameter_um = 200
+density_kg_m3 = 2500
+[bridges]
+youngs_modulus_pa = 1.5e6
+poisson_ratio = 0.49
+diameter_um = 74
+gap_um = 2
+[contact]
+friction = 0.5
+[specimen]
+diameter_um = 1500
+height_um = 1500
+volume_fraction = 0.58
+)";
+
 /// A specimen in closed form in the place of the simulation: a toe, a line of slope E ∝ E_p, a peak. Missing
 /// bridges soften it and show in Z; friction of beads raises what comes after the line; nothing else acts.
 class ToyRuns {
