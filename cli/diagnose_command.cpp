@@ -130,12 +130,15 @@ void add_diagnose(CLI::App& app) {
   command->add_flag("--dry-run", options->dry_run, "Say how many runs there are and how long they take");
   command->add_flag("--no-fresh-runs", options->no_fresh_runs,
                     "Only say where and which; make no further runs that measure how far the gap shrinks");
-  command->add_flag("--plan", options->plan,
-                    "Make the runs that tell what further measurements would bring; of a sample, or an\n"
-                    "experiment file without observations: before anything is measured");
+  auto* plan_flag =
+      command->add_flag("--plan", options->plan,
+                        "Make the runs that tell what further measurements would bring; of a sample, or an\n"
+                        "experiment file without observations: before anything is measured");
   command
       ->add_option("--about", options->about,
                    "With --plan, before anything is measured: effects that are to be learnt about")
+      ->needs(plan_flag)
+      ->allow_extra_args(false)  // the file may follow
       ->delimiter(',');
   command
       ->add_option(
