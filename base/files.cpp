@@ -74,8 +74,8 @@ void require_no_input(const fs::path& path) {
         fmt::format("{}: is an input of this command, expected another file to write", path.string()));
 }
 
-/// A regular file, a link to one, or nothing yet. A link to an open stream, as /dev/stdout, is none of these even
-/// where that is a file.
+/// A regular file, a link to one, or nothing yet. A link to an open stream, as /dev/stdout, is none of these
+/// even where that is a file.
 void require_file_name(const fs::path& path) {
   std::error_code error;
   if (fs::is_symlink(path, error) && fs::read_symlink(path, error).string().starts_with("/proc/"))

@@ -19,7 +19,8 @@ extern "C" void ask_to_stop(int) {
 void catch_interrupts() {
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file larger than the quota is then a failed write, said like a full disc
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a file larger than the quota is then a failed write, said like a full disc
 }
 
 bool interrupted() {

@@ -1,5 +1,6 @@
 #include "base/provenance.h"
 
+#include <nlohmann/json.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -40,8 +40,8 @@ const std::vector<NumberKey>& number_keys() {
        "time in which the polymer relaxes, where an effect makes it"},
       {"bridges.normal_stiffness_n_per_m", 1, tiny, most_n_per_m, PENDULAR_OPTIONAL(bridges.normal_stiffness),
        "bond stiffness kn"},
-      {"bridges.tangential_stiffness_n_per_m", 1, tiny, most_n_per_m, PENDULAR_OPTIONAL(bridges.tangential_stiffness),
-       "bond stiffness kt"},
+      {"bridges.tangential_stiffness_n_per_m", 1, tiny, most_n_per_m,
+       PENDULAR_OPTIONAL(bridges.tangential_stiffness), "bond stiffness kt"},
       {"contact.stiffness_ratio", 1, 0.01, 1e4, PENDULAR_AT(contact.stiffness_ratio), "k_glass over k_bond"},
       {"contact.friction", 1, 0.0, 10.0, PENDULAR_AT(contact.friction), "friction coefficient between beads"},
       {"contact.platen_friction", 1, 0.0, 10.0, PENDULAR_AT(contact.platen_friction),
@@ -142,19 +142,12 @@ const std::vector<SwitchKey>& switch_keys() {
 }
 
 const std::vector<std::string>& required_keys() {
-  static const std::vector<std::string> keys = {"beads.diameter_um",
-                                                "beads.diameter_sd_um",
-                                                "beads.density_kg_m3",
-                                                "bridges.youngs_modulus_pa",
-                                                "bridges.poisson_ratio",
-                                                "bridges.diameter_um",
-                                                "bridges.diameter_sd_um",
-                                                "bridges.gap_um",
-                                                "bridges.interfacial_energy_j_m2",
-                                                "contact.friction",
-                                                "specimen.diameter_um",
-                                                "specimen.height_um",
-                                                "compression.max_strain"};
+  static const std::vector<std::string> keys = {
+      "beads.diameter_um",         "beads.diameter_sd_um",  "beads.density_kg_m3",
+      "bridges.youngs_modulus_pa", "bridges.poisson_ratio", "bridges.diameter_um",
+      "bridges.diameter_sd_um",    "bridges.gap_um",        "bridges.interfacial_energy_j_m2",
+      "contact.friction",          "specimen.diameter_um",  "specimen.height_um",
+      "compression.max_strain"};
   return keys;
 }
 

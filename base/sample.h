@@ -134,8 +134,8 @@ std::vector<std::string> sample_key_names();
 /// (docs/sample.md) is told what that is. What only earlier versions leave out is warned of.
 Sample read_sample(const fs::path& path);
 
-/// The same from the file's text, changed by settings that count as if the text had them; `name` stands for the
-/// file in messages.
+/// The same from the file's text, changed by settings that count as if the text had them; `name` stands for
+/// the file in messages.
 Sample whole_sample(std::string_view text, const std::string& name,
                     const std::vector<SampleSetting>& settings = {});
 

@@ -12,8 +12,8 @@
 
 #include "base/parallel.h"
 #include "dem_core/compress.h"
-#include "dem_core/step_kernels.h"
-#include "dem_core/stepper.h"
+#include "dem_core/step/step_kernels.h"
+#include "dem_core/step/stepper.h"
 #include "packing/bridges.h"
 #include "packing/generate.h"
 

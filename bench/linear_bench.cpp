@@ -11,7 +11,7 @@
 
 #include "base/parallel.h"
 #include "dem_core/compress.h"
-#include "dem_core/linear_response.h"
+#include "dem_core/linear/linear_response.h"
 #include "packing/bridges.h"
 #include "packing/generate.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/comparison.h"
-#include "diagnosis/judgement.h"
+#include "diagnosis/inference/comparison.h"
+#include "diagnosis/inference/judgement.h"
 #include "effects/list.h"
 
 namespace pendular::blind {

@@ -10,7 +10,7 @@
 #include "blind/instruments.h"
 #include "blind/mechanism.h"
 #include "blind/scans.h"
-#include "dem_core/run_length.h"
+#include "dem_core/drive/run_length.h"
 #include "effects/list.h"
 #include "packing/tables.h"
 

@@ -7,7 +7,7 @@
 #include "base/files.h"
 #include "base/vec3.h"
 #include "blind/engine.h"
-#include "dem_core/curve.h"
+#include "dem_core/observe/curve.h"
 #include "packing/packing.h"
 
 namespace pendular::blind {

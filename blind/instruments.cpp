@@ -1,5 +1,7 @@
 #include "blind/instruments.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 

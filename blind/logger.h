@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "dem_core/curve.h"
+#include "dem_core/observe/curve.h"
 
 namespace pendular::blind {
 

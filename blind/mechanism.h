@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "dem_core/bond_evolution.h"
-#include "dem_core/curve.h"
+#include "dem_core/drive/bond_evolution.h"
+#include "dem_core/observe/curve.h"
 #include "dem_core/simulation.h"
 #include "effects/effect.h"
 #include "packing/packing.h"

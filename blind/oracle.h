@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "blind/case_folder.h"
-#include "diagnosis/runner.h"
+#include "diagnosis/bank/runner.h"
 
 namespace pendular::blind {
 

@@ -8,7 +8,7 @@
 #include "base/random.h"
 #include "blind/engine.h"
 #include "blind/mechanism.h"
-#include "diagnosis/funicular.h"
+#include "diagnosis/experiment/funicular.h"
 #include "effects/list.h"
 
 namespace pendular::blind {

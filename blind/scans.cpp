@@ -1,5 +1,6 @@
 #include "blind/scans.h"
 
+#include <nlohmann/json.hpp>
 #include <Eigen/Geometry>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/evidence.h"
+#include "diagnosis/inference/evidence.h"
 #include "effects/list.h"
 
 namespace pendular::blind {

@@ -8,7 +8,7 @@
 #include "base/provenance.h"
 #include "base/toml_place.h"
 #include "blind/engine.h"
-#include "diagnosis/believed.h"
+#include "diagnosis/experiment/believed.h"
 #include "effects/list.h"
 
 namespace pendular::blind {

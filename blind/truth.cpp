@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "blind/engine_truth.h"
 #include "blind/mechanism.h"
-#include "diagnosis/believed.h"
+#include "diagnosis/experiment/believed.h"
 #include "effects/compress.h"
 #include "effects/list.h"
 #include "packing/bridges.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "blind/plan.h"
-#include "dem_core/curve.h"
+#include "dem_core/observe/curve.h"
 #include "micromechanics/bridge_body.h"
 #include "packing/packing.h"
 

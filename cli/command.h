@@ -23,7 +23,8 @@ void add_common(CLI::App& command, Common& common, const std::string& out_help,
 /// Applies threads and quiet, and keeps the command's inputs from being written to: call first in a command's
 /// callback, with every file that it reads and every file that it writes. BadUsage where an output is
 /// an input or another output, BadInput where it could not be written. Empty paths are left out.
-void apply(const Common& common, const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs = {});
+void apply(const Common& common, const std::vector<fs::path>& inputs,
+           const std::vector<fs::path>& outputs = {});
 
 /// Where the file that goes beside an output is written.
 fs::path beside(const fs::path& out, const char* extension);

@@ -1,10 +1,11 @@
+#include <nlohmann/json.hpp>
 #include <fmt/format.h>
 
 #include <memory>
 
 #include "base/progress.h"
 #include "cli/command.h"
-#include "dem_core/linear_response.h"
+#include "dem_core/linear/linear_response.h"
 #include "effects/compress.h"
 #include "effects/list.h"
 #include "packing/measurement.h"

@@ -5,8 +5,8 @@
 
 namespace pendular::cli {
 
-/// A standard stream that is closed would be taken by the next file that is opened: it becomes one that fails to
-/// be read or written. To be called first.
+/// A standard stream that is closed would be taken by the next file that is opened: it becomes one that fails
+/// to be read or written. To be called first.
 void open_standard_streams();
 
 /// Runs one command line (without the program's name), as typed in a shell. Throws pendular::Error, or

@@ -1,10 +1,12 @@
 #include "base/error.h"
+
+#include <nlohmann/json.hpp>
 #include "base/progress.h"
 #include "cli/command.h"
 #include "cli/picture_commands.h"
 #include "packing/bridges.h"
 #include "packing/tables.h"
-#include "segmentation/qa.h"
+#include "segmentation/qa/qa.h"
 #include "segmentation/segment.h"
 
 namespace pendular::cli {

@@ -9,5 +9,8 @@ function(pendular_folder_library name)
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${name} SYMBOLIC)
   add_library(${name} STATIC ${arg_SOURCES})
   target_include_directories(${name} PUBLIC ${root})
+  # Position-independent: shared objects (VTK's writer, the Python module) hold copies.
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_precompile_headers(${name} REUSE_FROM pendular_precompiled)
   target_link_libraries(${name} PUBLIC ${arg_PUBLIC} PRIVATE pendular_flags ${arg_PRIVATE})
 endfunction()

@@ -14,8 +14,11 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 find_program(CCACHE ccache)
 if(CCACHE)
-  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+  # ccache sees through precompiled headers only where it is told so.
+  set(launcher ${CMAKE_COMMAND} -E env
+    CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
 endif()
 
 # Shared objects that programs load where they need them.
@@ -28,7 +31,9 @@ add_library(pendular_flags INTERFACE)
 target_compile_options(pendular_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
                        $<$<NOT:$<BOOL:${PENDULAR_FUZZ}>>:-Werror>  # another compiler's warnings do not end that build
                        # Results must not depend on how a compiler contracts a*b+c.
-                       -ffp-contract=off)
+                       -ffp-contract=off
+                       # Libraries are position-independent; their own calls are still inlined.
+                       -fno-semantic-interposition)
 if(PENDULAR_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)

@@ -7,8 +7,8 @@
 #include "base/files.h"
 #include "base/provenance.h"
 #include "base/sample.h"
-#include "dem_core/bond_evolution.h"
-#include "dem_core/curve.h"
+#include "dem_core/drive/bond_evolution.h"
+#include "dem_core/observe/curve.h"
 #include "packing/packing.h"
 
 namespace pendular {

@@ -1,13 +1,14 @@
 #include "dem_core/run_folder.h"
 
+#include <nlohmann/json.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/csv.h"
-#include "dem_core/local_strain.h"
-#include "dem_core/quasi_static.h"
-#include "dem_core/shear_band.h"
+#include "dem_core/observe/quasi_static.h"
+#include "kinematics/local_strain.h"
+#include "kinematics/shear_band.h"
 
 namespace pendular {
 namespace {

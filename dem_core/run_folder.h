@@ -1,18 +1,18 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "base/files.h"
 #include "base/provenance.h"
-#include "dem_core/avalanches.h"
+#include "dem_core/observe/avalanches.h"
 #include "dem_core/run_state.h"
 
 namespace pendular {
 
 /// The files of a run folder (contract, "Tables"); each is written whole or not at all.
 
-/// curve.csv: strain,stress_pa,stress_bottom_pa,broken_bonds,kinetic_energy_j,…; a cell is empty where there is no
-/// such number, as of the inertial number without stress.
+/// curve.csv: strain,stress_pa,stress_bottom_pa,broken_bonds,kinetic_energy_j,…; a cell is empty where there
+/// is no such number, as of the inertial number without stress.
 void write_curve(const fs::path& path, const std::vector<CurveRow>& rows, const Provenance& provenance);
 
 /// events.csv: one row per broken bond. Mode: what of Griffith's criterion was larger; "mixed" where neither

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "dem_core/curve.h"
-#include "dem_core/platen_program.h"
+#include "dem_core/drive/platen_program.h"
+#include "dem_core/observe/curve.h"
 #include "dem_core/simulation.h"
 
 namespace pendular {

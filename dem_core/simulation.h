@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/sample.h"
-#include "dem_core/pair.h"
-#include "dem_core/platen.h"
+#include "dem_core/law/pair.h"
+#include "dem_core/law/platen.h"
 #include "packing/packing.h"
 
 namespace pendular {

@@ -7,11 +7,11 @@
 
 #include "base/error.h"
 #include "base/quantity.h"
-#include "diagnosis/bank_tests.h"
-#include "diagnosis/experiment_places.h"
-#include "diagnosis/leading.h"
-#include "diagnosis/next_experiments.h"
-#include "diagnosis/shrinkage.h"
+#include "diagnosis/advice/next_experiments.h"
+#include "diagnosis/bank/bank_tests.h"
+#include "diagnosis/inference/leading.h"
+#include "diagnosis/repair/experiment_places.h"
+#include "diagnosis/repair/shrinkage.h"
 #include "diagnosis/verdict.h"
 #include "diagnosis/words.h"
 

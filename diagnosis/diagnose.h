@@ -1,8 +1,8 @@
 #pragma once
 
+#include "diagnosis/bank/runner.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/judgement.h"
-#include "diagnosis/runner.h"
+#include "diagnosis/inference/judgement.h"
 
 namespace pendular::diagnosis {
 

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "base/provenance.h"
-#include "diagnosis/calibration.h"
-#include "diagnosis/conditions.h"
-#include "diagnosis/evidence.h"
-#include "diagnosis/experiment.h"
-#include "diagnosis/gap.h"
-#include "diagnosis/outlook.h"
-#include "diagnosis/place.h"
+#include "diagnosis/advice/outlook.h"
+#include "diagnosis/experiment/conditions.h"
+#include "diagnosis/experiment/experiment.h"
+#include "diagnosis/inference/calibration.h"
+#include "diagnosis/inference/evidence.h"
+#include "diagnosis/inference/gap.h"
+#include "diagnosis/repair/place.h"
 
 namespace pendular::diagnosis {
 

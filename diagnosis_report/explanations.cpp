@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "diagnosis/judgement.h"
+#include "diagnosis/inference/judgement.h"
 #include "viz/labels.h"
 
 namespace pendular::diagnosis_report {

@@ -1,5 +1,7 @@
 #include "diagnosis_report/json.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <map>

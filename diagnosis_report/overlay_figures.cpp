@@ -1,5 +1,5 @@
-#include "diagnosis/kinds/kind.h"
 #include "diagnosis_report/overlay_figures.h"
+#include "diagnosis/kinds/kind.h"
 
 #include <fmt/format.h>
 

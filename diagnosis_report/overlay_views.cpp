@@ -220,7 +220,8 @@ std::vector<OverlayView> views_of(const Overlay& overlay) {
        }},
       {&kinds::bridge_diameters(),
        [](const Overlay& o) { return Views{sample_view(o, "d_um", "bridge diameter d (\u00b5m)")}; }},
-      {&kinds::bridge_gaps(), [](const Overlay& o) { return Views{sample_view(o, "gap_um", "gap (\u00b5m)")}; }},
+      {&kinds::bridge_gaps(),
+       [](const Overlay& o) { return Views{sample_view(o, "gap_um", "gap (\u00b5m)")}; }},
       {&kinds::displacements(), [](const Overlay& o) { return Views{displacement_view(o)}; }}};
   const auto found = all.find(overlay.kind);
   return found == all.end() ? Views{} : found->second(overlay);

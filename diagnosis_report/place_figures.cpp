@@ -29,9 +29,9 @@ Table bead_table(const Place& place, const std::string& name) {
               {}};
   for (std::size_t k = 0; k < place.ids.size(); ++k) {
     const Vec3 at = kUm * place.rest[k], moved = kUm * place.misfit.difference[k];
-    table.rows.push_back({static_cast<double>(place.ids[k]), at.x(), at.y(), at.z(), moved.x(), moved.y(), moved.z(),
-                          place.misfit.value[k], place.stands_out(k) ? 1.0 : 0.0, change_percent(place, k),
-                          sigma_percent(place, k)});
+    table.rows.push_back({static_cast<double>(place.ids[k]), at.x(), at.y(), at.z(), moved.x(), moved.y(),
+                          moved.z(), place.misfit.value[k], place.stands_out(k) ? 1.0 : 0.0,
+                          change_percent(place, k), sigma_percent(place, k)});
   }
   return table;
 }
@@ -53,10 +53,11 @@ Drawn misfit_figure(const viz::Display& display, const Place& place) {
   map.high = std::max(kLargestMisfit, 2.0 * place.misfit.threshold);
   const std::string name = "place_misfit_" + place.observation;
   return {viz::draw_bead_map(display, map),
-          fmt::format("{} Beads of {} at {:.2f} % strain behind a cut through the axis: how neighbours part "
-                      "otherwise than simulated, over the noise; one specimen in twenty exceeds {:.2f} anywhere by "
-                      "noise alone.",
-                      place.words, place.observation, kPercent * place.strain, place.misfit.threshold),
+          fmt::format(
+              "{} Beads of {} at {:.2f} % strain behind a cut through the axis: how neighbours part "
+              "otherwise than simulated, over the noise; one specimen in twenty exceeds {:.2f} anywhere by "
+              "noise alone.",
+              place.words, place.observation, kPercent * place.strain, place.misfit.threshold),
           bead_table(place, name)};
 }
 
@@ -69,10 +70,11 @@ Drawn stiffness_figure(const viz::Display& display, const Place& place) {
     map.values[k] = std::clamp(change_percent(place, k), map.low, map.high);
   const std::string name = "place_stiffness_" + place.observation;
   return {viz::draw_bead_map(display, map),
-          fmt::format("Change of stiffness in {} regions of {} that brings the simulated displacements nearest to "
-                      "the measured ones, by the adjoint of the spring network; what it leaves is {:.1f} times the "
-                      "noise.",
-                      place.stiffness.regions, place.observation, place.stiffness.left),
+          fmt::format(
+              "Change of stiffness in {} regions of {} that brings the simulated displacements nearest to "
+              "the measured ones, by the adjoint of the spring network; what it leaves is {:.1f} times the "
+              "noise.",
+              place.stiffness.regions, place.observation, place.stiffness.left),
           bead_table(place, name)};
 }
 

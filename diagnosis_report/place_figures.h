@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "diagnosis/place.h"
+#include "diagnosis/repair/place.h"
 #include "diagnosis_report/drawn.h"
 #include "packing/polydata.h"
 #include "viz/display.h"
@@ -13,8 +13,8 @@ namespace pendular::diagnosis_report {
 /// their axis. The first has the table of all beads.
 std::vector<Drawn> place_figures(const viz::Display& display, const std::vector<diagnosis::Place>& places);
 
-/// Beads at rest with both fields, for ParaView: bead_id, diameter_um, difference_um (measured less simulated),
-/// misfit (over noise), stands_out, stiffness_change_percent, stiffness_change_sigma_percent.
+/// Beads at rest with both fields, for ParaView: bead_id, diameter_um, difference_um (measured less
+/// simulated), misfit (over noise), stands_out, stiffness_change_percent, stiffness_change_sigma_percent.
 PolyTable place_polydata(const diagnosis::Place& place);
 
 }  // namespace pendular::diagnosis_report

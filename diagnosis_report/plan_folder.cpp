@@ -1,5 +1,7 @@
 #include "diagnosis_report/plan_folder.h"
 
+#include <nlohmann/json.hpp>
+
 #include "diagnosis_report/json.h"
 #include "diagnosis_report/outcome_figures.h"
 #include "diagnosis_report/tables.h"

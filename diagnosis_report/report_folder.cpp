@@ -1,5 +1,7 @@
 #include "diagnosis_report/report_folder.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cctype>
 
 #include "base/interrupt.h"

@@ -8,8 +8,8 @@
 
 #include "base/random.h"
 #include "base/sample.h"
-#include "dem_core/bond_evolution.h"
-#include "dem_core/curve.h"
+#include "dem_core/drive/bond_evolution.h"
+#include "dem_core/observe/curve.h"
 #include "dem_core/simulation.h"
 #include "micromechanics/bridge_body.h"
 #include "packing/packing.h"

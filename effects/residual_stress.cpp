@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "dem_core/relaxation.h"
+#include "dem_core/drive/relaxation.h"
 #include "effects/effect.h"
 
 namespace pendular::effects {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "dem_core/bond_evolution.h"
+#include "dem_core/drive/bond_evolution.h"
 
 namespace pendular::effects {
 

@@ -30,20 +30,20 @@ BridgeState bridge_state(const std::string& word);
 /// A pair of neighbouring beads, i < j, as indices into Packing::beads (not ids).
 struct Bridge {
   int i = 0, j = 0;
-  double gap = 0.0;            ///< surface separation, m; negative: overlap within measurement error
-  double sigma_gap = 0.0;      ///< m
-  double probability = 1.0;    ///< that polymer joins the two
-  double diameter = 0.0;       ///< neck diameter d, m
-  double sigma_diameter = 0.0; ///< m
+  double gap = 0.0;             ///< surface separation, m; negative: overlap within measurement error
+  double sigma_gap = 0.0;       ///< m
+  double probability = 1.0;     ///< that polymer joins the two
+  double diameter = 0.0;        ///< neck diameter d, m
+  double sigma_diameter = 0.0;  ///< m
   BridgeState state = BridgeState::candidate;
 };
 
 /// The cylinder that holds the beads; axis along z through (axis_x, axis_y).
 struct Specimen {
-  double diameter = 0.0;             ///< m
-  double height = 0.0;               ///< m
-  double axis_x = 0.0, axis_y = 0.0; ///< m
-  double bottom = 0.0;               ///< z of the lower piston's face, m
+  double diameter = 0.0;              ///< m
+  double height = 0.0;                ///< m
+  double axis_x = 0.0, axis_y = 0.0;  ///< m
+  double bottom = 0.0;                ///< z of the lower piston's face, m
 };
 
 struct Packing {
@@ -54,6 +54,8 @@ struct Packing {
 };
 
 /// Surface separation of two beads, m.
-inline double gap(const Bead& a, const Bead& b) { return (a.centre - b.centre).norm() - 0.5 * (a.diameter + b.diameter); }
+inline double gap(const Bead& a, const Bead& b) {
+  return (a.centre - b.centre).norm() - 0.5 * (a.diameter + b.diameter);
+}
 
 }  // namespace pendular

@@ -18,11 +18,11 @@ struct PolyTable {
   using Array = std::variant<std::vector<double>, std::vector<std::int64_t>, std::vector<Vec3>>;
 
   std::vector<Vec3> points;
-  std::vector<std::array<int, 2>> lines;                 ///< pairs of point indices
-  std::vector<std::pair<std::string, Array>> point_data; ///< each as long as points, written in this order
-  std::vector<std::pair<std::string, Array>> line_data;  ///< each as long as lines
-  std::map<std::string, std::string> text_fields;        ///< field data: units, format version, provenance …
-  std::map<std::string, double> number_fields;           ///< field data: specimen_height_um, strain …
+  std::vector<std::array<int, 2>> lines;                  ///< pairs of point indices
+  std::vector<std::pair<std::string, Array>> point_data;  ///< each as long as points, written in this order
+  std::vector<std::pair<std::string, Array>> line_data;   ///< each as long as lines
+  std::map<std::string, std::string> text_fields;  ///< field data: units, format version, provenance …
+  std::map<std::string, double> number_fields;     ///< field data: specimen_height_um, strain …
 };
 
 /// Writes a .vtp whole or not at all (XML, appended and compressed); equal tables give equal bytes.
@@ -34,8 +34,11 @@ PolyTable read_polydata(const fs::path& path);
 
 /// A named array of the wanted type (integers are converted to numbers); BadInput naming file and array
 /// where it is missing or of another kind.
-std::vector<double> numbers(const PolyTable& table, bool of_points, const std::string& name, const fs::path& path);
-std::vector<std::int64_t> integers(const PolyTable& table, bool of_points, const std::string& name, const fs::path& path);
-std::vector<Vec3> vectors(const PolyTable& table, bool of_points, const std::string& name, const fs::path& path);
+std::vector<double> numbers(const PolyTable& table, bool of_points, const std::string& name,
+                            const fs::path& path);
+std::vector<std::int64_t> integers(const PolyTable& table, bool of_points, const std::string& name,
+                                   const fs::path& path);
+std::vector<Vec3> vectors(const PolyTable& table, bool of_points, const std::string& name,
+                          const fs::path& path);
 
 }  // namespace pendular

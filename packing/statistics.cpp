@@ -1,5 +1,7 @@
 #include "packing/statistics.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

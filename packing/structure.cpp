@@ -1,5 +1,7 @@
 #include "packing/structure.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

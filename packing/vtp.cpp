@@ -1,5 +1,7 @@
 #include "packing/vtp.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 
 #include "base/columns.h"

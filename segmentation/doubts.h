@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "segmentation/grey_levels.h"
+#include "segmentation/search/grey_levels.h"
 
 namespace pendular {
 

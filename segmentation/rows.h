@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "packing/packing.h"
-#include "segmentation/volume.h"
+#include "volume/volume.h"
 
 namespace pendular {
 

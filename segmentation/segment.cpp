@@ -10,11 +10,11 @@
 #include "base/parallel.h"
 #include "packing/bridges.h"
 #include "packing/statistics.h"
-#include "segmentation/bead_fit.h"
+#include "segmentation/bridges/polymer_fit.h"
 #include "segmentation/doubts.h"
-#include "segmentation/polymer_fit.h"
-#include "segmentation/resample.h"
+#include "segmentation/fit/bead_fit.h"
 #include "segmentation/rows.h"
+#include "volume/resample.h"
 
 namespace pendular {
 namespace {

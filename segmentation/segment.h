@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "packing/packing.h"
-#include "segmentation/bead_search.h"
-#include "segmentation/bridge_search.h"
-#include "segmentation/volume.h"
+#include "segmentation/bridges/bridge_search.h"
+#include "segmentation/search/bead_search.h"
+#include "volume/volume.h"
 
 namespace pendular {
 
@@ -37,10 +37,10 @@ struct Segmentation {
   std::vector<std::string> warnings;
 };
 
-/// Beads by seeds and a fit of each one's blurred edge in the raw grey values (segmentation/bead_fit.h), with
-/// standard errors that account for correlated noise, and the pairs near enough for a bridge.
-/// `quality` is 1/(1 + (m/0.15)²), m the model's misfit beyond the noise over the bead's contrast.
-/// BadInput where there is no bead.
+/// Beads by seeds and a fit of each one's blurred edge in the raw grey values (segmentation/fit/bead_fit.h),
+/// with standard errors that account for correlated noise, and the pairs near enough for a bridge. `quality`
+/// is 1/(1 + (m/0.15)²), m the model's misfit beyond the noise over the bead's contrast. BadInput where there
+/// is no bead.
 Segmentation segment(const Volume& volume, const SegmentOptions& options = {});
 
 /// Number of the bead for each voxel of bead material (its place in `beads`, from 1; the grains' follow), 0

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "dem_core/run_length.h"
+#include "dem_core/drive/run_length.h"
 
 namespace pendular::sweep {
 namespace {

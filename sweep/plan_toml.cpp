@@ -37,8 +37,8 @@ Integer integer_at(const TomlPlace& place, std::int64_t lowest, std::int64_t hig
   const auto value = place.node.is_integer() ? place.node.value<std::int64_t>() : std::nullopt;
   if (!value || *value < lowest || *value > highest)
     bad_input("{}: found {}, expected an integer from {} to {}", place.str(),
-              place.node.is_number() ? fmt::format("{}", number_at(place)) : type_name(place.node),
-              lowest, highest);
+              place.node.is_number() ? fmt::format("{}", number_at(place)) : type_name(place.node), lowest,
+              highest);
   return static_cast<Integer>(*value);
 }
 

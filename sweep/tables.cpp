@@ -1,5 +1,7 @@
 #include "sweep/tables.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <limits>
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/provenance.h"
-#include "dem_core/local_strain.h"
-#include "dem_core/shear_band.h"
+#include "kinematics/local_strain.h"
+#include "kinematics/shear_band.h"
 #include "tracking/match.h"
 #include "tracking/registration.h"
 

@@ -75,7 +75,8 @@ Image draw_bead_map(const Display& display, const BeadMap& map, PictureSize size
   canvas.window()->AddRenderer(annotation);
   canvas.window()->AddRenderer(scene);
   add_spheres(scene, map, 0.5 * (low.y() + high.y()), colour);
-  const double extent = kMillimetre * (std::max(high.z() - low.z(), high.x() - low.x()) + map.diameters.front());
+  const double extent =
+      kMillimetre * (std::max(high.z() - low.z(), high.x() - low.x()) + map.diameters.front());
   vtkCamera* camera = scene->GetActiveCamera();
   camera->ParallelProjectionOn();
   camera->SetFocalPoint(middle.x(), middle.y(), middle.z());

@@ -11,9 +11,9 @@ namespace pendular::viz {
 
 /// A number for every bead of a specimen.
 struct BeadMap {
-  std::string title, quantity;  ///< what stands above the picture, and above the colour bar
-  std::string note;             ///< a line under the title
-  std::vector<Vec3> centres;    ///< m
+  std::string title, quantity;            ///< what stands above the picture, and above the colour bar
+  std::string note;                       ///< a line under the title
+  std::vector<Vec3> centres;              ///< m
   std::vector<double> diameters, values;  ///< m; NaN is drawn grey
   double low = 0.0, high = 1.0;           ///< ends of the colours
   bool is_signed = false;                 ///< blue over white to red, for ranges about zero

@@ -12,11 +12,11 @@
 #include <algorithm>
 #include <iostream>
 
-#include "diagnosis/bank.h"
-#include "diagnosis/calibration.h"
-#include "diagnosis/further_measurements.h"
-#include "diagnosis/judgement.h"
-#include "diagnosis/next_experiments.h"
+#include "diagnosis/advice/next_experiments.h"
+#include "diagnosis/bank/bank.h"
+#include "diagnosis/experiment/further_measurements.h"
+#include "diagnosis/inference/calibration.h"
+#include "diagnosis/inference/judgement.h"
 #include "effects/list.h"
 #include "sweep/store.h"
 

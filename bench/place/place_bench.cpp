@@ -14,8 +14,8 @@
 #include "base/progress.h"
 #include "base/random.h"
 #include "blind/mechanism.h"
-#include "diagnosis/place.h"
-#include "diagnosis/specimens.h"
+#include "diagnosis/experiment/specimens.h"
+#include "diagnosis/repair/place.h"
 #include "effects/compress.h"
 #include "packing/bridges.h"
 #include "packing/generate.h"
@@ -35,10 +35,19 @@ struct Planted {
   std::string mechanism;
   double theta;
 };
-const std::vector<Planted> kPlanted = {
-    {"none", 0.0},   {"weak_layer", 0.3},      {"weak_layer", 0.5},       {"weak_layer", 0.7},
-    {"crack", 0.5},  {"crack", 0.75},          {"crack", 1.0},            {"platen_overhang", 0.15},
-    {"platen_overhang", 0.28}, {"platen_overhang", 0.4}, {"sleeve", 0.3}, {"sleeve", 0.45}, {"sleeve", 0.6}};
+const std::vector<Planted> kPlanted = {{"none", 0.0},
+                                       {"weak_layer", 0.3},
+                                       {"weak_layer", 0.5},
+                                       {"weak_layer", 0.7},
+                                       {"crack", 0.5},
+                                       {"crack", 0.75},
+                                       {"crack", 1.0},
+                                       {"platen_overhang", 0.15},
+                                       {"platen_overhang", 0.28},
+                                       {"platen_overhang", 0.4},
+                                       {"sleeve", 0.3},
+                                       {"sleeve", 0.45},
+                                       {"sleeve", 0.6}};
 
 Sample sample_of(const std::string& path) {
   Sample sample = read_sample(fs::path(path));
@@ -56,7 +65,8 @@ std::vector<Vec3> displacements(const Packing& packing, const Sample& sample, co
   fs::remove_all(scratch);
   compress(packing, sample, scratch, options);
   std::vector<Vec3> u;
-  for (const Vec3& v : vectors(read_polydata(scratch / "frames" / "frame_0000.vtp"), true, "displacement_um", scratch))
+  for (const Vec3& v :
+       vectors(read_polydata(scratch / "frames" / "frame_0000.vtp"), true, "displacement_um", scratch))
     u.push_back(um * v);
   return u;
 }
@@ -164,8 +174,10 @@ void run(std::uint64_t seed, const Sample& sample, bool none_only, const fs::pat
     }
     Simulation changed = build_simulation(packing, sample);
     if (options.prepare) options.prepare(changed);
-    scan.measured = followed(truth, measured, displacements(packing, sample, scratch / "run", options), number);
-    report(seed, planted, diagnosis::place_of(scan, specimen, scan.ids), beads_of_place(planted, plain, changed));
+    scan.measured =
+        followed(truth, measured, displacements(packing, sample, scratch / "run", options), number);
+    report(seed, planted, diagnosis::place_of(scan, specimen, scan.ids),
+           beads_of_place(planted, plain, changed));
   }
 }
 
@@ -175,8 +187,9 @@ int main(int count, char** words) {
   if (count < 4) return 2;
   set_quiet(true);
   const Sample sample = sample_of(words[1]);
-  fmt::print("seed,mechanism,theta,beads,of_place,auc_misfit,auc_stiffness,found,stand_out,largest_misfit,threshold,"
-             "largest_z,z_threshold,median_change_percent,left_over_noise,words\n");
+  fmt::print(
+      "seed,mechanism,theta,beads,of_place,auc_misfit,auc_stiffness,found,stand_out,largest_misfit,threshold,"
+      "largest_z,z_threshold,median_change_percent,left_over_noise,words\n");
   const auto first = std::stoull(words[2]);
   for (std::uint64_t seed = first; seed < first + std::stoull(words[3]); ++seed) {
     const fs::path scratch = fs::temp_directory_path() / fmt::format("place_bench_{}", seed);

@@ -10,7 +10,7 @@ namespace {
 constexpr double kUm = 1e6;
 constexpr std::size_t kUsualRows = 60;  // of a usual sample
 constexpr double kUsualError = 1.5;     // of its rows, um
-constexpr double kRounding = 1e-12;  // what remains of the spread of equal numbers
+constexpr double kRounding = 1e-12;     // what remains of the spread of equal numbers
 
 void check(const Sample& believed, Observation& observation, std::vector<std::string>&) {
   const double diameter = kUm * believed.beads.diameter;
@@ -67,8 +67,8 @@ Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
 
 }  // namespace
 
-/// A sample of measured necks. Simulated: of the stated mean, and of the larger of the stated spread and that of
-/// the effect bridge_diameter_spread.
+/// A sample of measured necks. Simulated: of the stated mean, and of the larger of the stated spread and that
+/// of the effect bridge_diameter_spread.
 const Kind& kinds::bridge_diameters() {
   static const Kind kind{.name = "bridge_diameters",
                          .required = {"d_um"},

@@ -8,10 +8,10 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr double kUm = 1e6;
-constexpr double kError = 0.3;  // of the simulation, um
+constexpr double kError = 0.3;          // of the simulation, um
 constexpr std::size_t kUsualRows = 60;  // of a usual sample
 constexpr double kUsualError = 0.5;     // of its rows, um
-constexpr double kNoGap = 1e-4;  // over the beads' diameter: none is resolved
+constexpr double kNoGap = 1e-4;         // over the beads' diameter: none is resolved
 
 void check(const Sample& believed, Observation& observation, std::vector<std::string>&) {
   const double diameter = kUm * believed.beads.diameter;
@@ -19,8 +19,10 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
   check_sigma(observation, "sigma_um", diameter);
   const double widest = largest_of(observation.column("gap_um"));
   if (widest > 0.0 && widest < kNoGap * diameter)
-    bad_input("{}: gap_um: found none wider than {:.3g} um, expected gaps between beads of {:.3g} um (is it in {}?)",
-              observation.file.string(), widest, diameter, widest > 1e-3 * kNoGap * diameter ? "mm" : "m");
+    bad_input(
+        "{}: gap_um: found none wider than {:.3g} um, expected gaps between beads of {:.3g} um (is it in "
+        "{}?)",
+        observation.file.string(), widest, diameter, widest > 1e-3 * kNoGap * diameter ? "mm" : "m");
 }
 
 Columns simulate(const Observation&, const Simulated& simulated) {

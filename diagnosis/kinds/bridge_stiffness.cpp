@@ -13,15 +13,16 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr double kUm = 1e6;
-constexpr double kSpreadOut = 1.2;                   // of necks, so that an exponent can be read
+constexpr double kSpreadOut = 1.2;                       // of necks, so that an exponent can be read
 constexpr double kLeastRatio = 0.02, kMostRatio = 50.0;  // of measured stiffness over that by finite elements
 constexpr double kNormalByGap = 0.82, kTangentialByGap = 0.44;  // −dln k/dln δ0 (docs/bridge.md)
-// As they are usually measured: so many, of necks between these shares of the mean one, with this relative error.
+// As they are usually measured: so many, of necks between these shares of the mean one, with this relative
+// error.
 constexpr int kUsualBridges = 20;
 constexpr double kThinnest = 0.6, kThickest = 1.4, kUsualError = 0.08;
 constexpr std::size_t kMostKept = 1024;  // tables of bridges whose stiffness is kept
-constexpr int kQuantiles = 9;  // of the gaps in a specimen
-constexpr double kLongest = 0.2;  // gap over bead diameter, as effects/bridge_gap_spread.cpp has it
+constexpr int kQuantiles = 9;            // of the gaps in a specimen
+constexpr double kLongest = 0.2;         // gap over bead diameter, as effects/bridge_gap_spread.cpp has it
 
 /// Stiffness of bridges of a polymer of one pascal. Kept, because the runs of a diagnosis differ in E_p at
 /// most, and all ask for the same bridges.
@@ -74,7 +75,8 @@ Columns of_specimen(const Observation& observation, const Sample& sample) {
     const Columns one = at_gap(observation, sample,
                                std::min(least + excess, std::max(least, kLongest * sample.beads.diameter)));
     for (const char* name : {"kn_n_per_m", "kt_n_per_m"})
-      for (std::size_t k = 0; k < one.at(name).size(); ++k) sum[name][k] += std::log(one.at(name)[k]) / kQuantiles;
+      for (std::size_t k = 0; k < one.at(name).size(); ++k)
+        sum[name][k] += std::log(one.at(name)[k]) / kQuantiles;
   }
   for (const char* name : {"kn_n_per_m", "kt_n_per_m"})
     for (double& value : sum[name]) value = std::exp(value);
@@ -92,13 +94,16 @@ Columns simulate(const Observation& observation, const Simulated& simulated) {
 }
 
 /// One row in another unit than the others is off by a power of a thousand.
-void check_rows(const Observation& observation, const std::string& column, const std::vector<double>& values) {
+void check_rows(const Observation& observation, const std::string& column,
+                const std::vector<double>& values) {
   constexpr double kApart = 200.0;
   const double middle = median(values);
   for (std::size_t k = 0; k < values.size(); ++k)
     if (values[k] < middle / kApart || values[k] > middle * kApart)
-      bad_input("{}: {}: row {}: found {:.3g}, {:.2g} times the median of the column's rows; expected one unit in all",
-                observation.file.string(), column, k + 1, observation.column(column)[k], values[k] / middle);
+      bad_input(
+          "{}: {}: row {}: found {:.3g}, {:.2g} times the median of the column's rows; expected one unit in "
+          "all",
+          observation.file.string(), column, k + 1, observation.column(column)[k], values[k] / middle);
 }
 
 /// A stiffness that is a power of a thousand off is in another unit.
@@ -112,14 +117,17 @@ void check_unit(const Sample& believed, const Observation& observation) {
     const double ratio = median(ratios);
     check_rows(observation, name, ratios);
     if (ratio > kLeastRatio && ratio < kMostRatio) continue;
-    const auto fits = [&](double factor) { return ratio * factor > kLeastRatio && ratio * factor < kMostRatio; };
+    const auto fits = [&](double factor) {
+      return ratio * factor > kLeastRatio && ratio * factor < kMostRatio;
+    };
     const char* unit = fits(1e3)    ? "; in kN/m or N/mm it would fit"
                        : fits(1e-3) ? "; in mN/m it would fit"
                        : fits(1e6)  ? "; in MN/m or N/um it would fit"
                        : fits(1e-6) ? "; in uN/m it would fit"
                                     : "";
     bad_input(
-        "{}: {}: found {:.3g} times what finite elements give for these bridges (median), expected about one{}",
+        "{}: {}: found {:.3g} times what finite elements give for these bridges (median), expected about "
+        "one{}",
         observation.file.string(), name, ratio, unit);
   }
 }
@@ -148,8 +156,8 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
   check_rows(observation, "d_um", d);
   for (std::size_t k = 0; k < d.size(); ++k)
     if (d[k] >= diameter[k])
-      bad_input("{}: found a bridge of {:.4g} um on beads of {:.4g} um, expected it to be thinner", file, d[k],
-                diameter[k]);
+      bad_input("{}: found a bridge of {:.4g} um on beads of {:.4g} um, expected it to be thinner", file,
+                d[k], diameter[k]);
   for (const char* stiffness : {"kn", "kt"})
     if (const std::string name = stiffness; observation.has(name + "_n_per_m"))
       check_sigma(observation, name + "_sigma_n_per_m", largest_of(observation.column(name + "_n_per_m")));
@@ -210,30 +218,31 @@ Columns shown(const Observation& planned, const Columns& simulated) {
 }
 
 Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
-  return errors_by_name(features,
-                        {{"kn_level", 0.02}, {"kt_level", 0.02}, {"kn_exponent", 0.05}, {"kt_exponent", 0.05}});
+  return errors_by_name(
+      features, {{"kn_level", 0.02}, {"kt_level", 0.02}, {"kn_exponent", 0.05}, {"kt_exponent", 0.05}});
 }
 
 }  // namespace
 
 /// Single-bridge tests. Simulated by finite elements from each bridge's own diameter, scaled to the stated
-/// stiffness where one is stated: at the gap at which they were made (origin = "made"; gap_um, the sample's where
-/// it is not stated, within gap_sigma_um), or with the specimen's gaps (origin = "specimen").
+/// stiffness where one is stated: at the gap at which they were made (origin = "made"; gap_um, the sample's
+/// where it is not stated, within gap_sigma_um), or with the specimen's gaps (origin = "specimen").
 const Kind& kinds::bridge_stiffness() {
-  static const Kind kind{
-      .name = "bridge_stiffness",
-      .required = {"d_um", "D_um"},
-      .optional = {"kn_n_per_m", "kn_sigma_n_per_m", "kt_n_per_m", "kt_sigma_n_per_m"},
-      .scale = Scale::bridge,
-      .keys = {{"origin", {"made", "specimen"}}, {"gap_um", {}, 0.0, 1e3, 0.0}, {"gap_sigma_um", {}, 0.0, 1e3, 0.0}},
-      .of_bridges = true,
-      .check = check,
-      .simulate = simulate,
-      .landmarks = landmarks,
-      .perturbed = perturbed,
-      .planned = planned,
-      .shown = shown,
-      .model_error = model_error};
+  static const Kind kind{.name = "bridge_stiffness",
+                         .required = {"d_um", "D_um"},
+                         .optional = {"kn_n_per_m", "kn_sigma_n_per_m", "kt_n_per_m", "kt_sigma_n_per_m"},
+                         .scale = Scale::bridge,
+                         .keys = {{"origin", {"made", "specimen"}},
+                                  {"gap_um", {}, 0.0, 1e3, 0.0},
+                                  {"gap_sigma_um", {}, 0.0, 1e3, 0.0}},
+                         .of_bridges = true,
+                         .check = check,
+                         .simulate = simulate,
+                         .landmarks = landmarks,
+                         .perturbed = perturbed,
+                         .planned = planned,
+                         .shown = shown,
+                         .model_error = model_error};
   return kind;
 }
 

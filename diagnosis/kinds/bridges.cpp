@@ -38,10 +38,12 @@ void read(Observation& observation, const CsvTable& table) {
   for (std::size_t k = 0; k < table.rows(); ++k) {
     const Bead &a = *by_id.at(ids_i[k]), &b = *by_id.at(ids_j[k]);
     const Vec3 at = 0.5 * (a.centre + b.centre) - middle, way = (b.centre - a.centre).normalized();
-    const BridgeState state = table.has("state") ? bridge_state(table.texts("state")[k]) : BridgeState::bridge;
+    const BridgeState state =
+        table.has("state") ? bridge_state(table.texts("state")[k]) : BridgeState::bridge;
     if (state == BridgeState::candidate)
-      bad_input("{}: column state: found \"candidate\", expected what was measured (pendular segment --bridges)",
-                table.where(k));
+      bad_input(
+          "{}: column state: found \"candidate\", expected what was measured (pendular segment --bridges)",
+          table.where(k));
     columns["joined"].push_back(state == BridgeState::undetermined ? std::nan("")
                                                                    : double(state == BridgeState::bridge));
     columns["cosine"].push_back(std::fabs(way.z()));
@@ -62,8 +64,9 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
     bad_input("{}: found {} pairs whose state is determined, expected at least {}", observation.file.string(),
               determined, kLeastPairs);
   if (std::none_of(joined.begin(), joined.end(), [](double one) { return one == 0.0; }))
-    warnings.push_back(observation.name +
-                       ": every pair is said to have a bridge; pairs without one tell as much and should be listed");
+    warnings.push_back(
+        observation.name +
+        ": every pair is said to have a bridge; pairs without one tell as much and should be listed");
   const double diameter = kUm * believed.beads.diameter,
                separation = median(observation.column("separation_um"));
   if (std::fabs(separation) > kFarPair * diameter)
@@ -137,7 +140,8 @@ void add_necks(FeatureList& list, const Columns& columns) {
   if (!columns.contains("bridge_diameter_um")) return;
   if (columns.contains("neck_mean_um")) {
     list.ratio("neck_mean", columns.at("neck_mean_um").front());
-    return list.difference("neck_spread", columns.at("neck_spread_um").front() / columns.at("neck_mean_um").front());
+    return list.difference("neck_spread",
+                           columns.at("neck_spread_um").front() / columns.at("neck_mean_um").front());
   }
   std::vector<double> necks;
   double errors = 0.0, square = 0.0;
@@ -183,7 +187,8 @@ Columns perturbed(const Observation& observation, unsigned long seed) {
   auto& joined = columns["joined"];
   if (columns.contains("probability"))
     for (std::size_t k = 0; k < joined.size(); ++k) {
-      const double probability = columns.at("probability")[k], wrong = joined[k] == 1.0 ? 1.0 - probability : probability;
+      const double probability = columns.at("probability")[k],
+                   wrong = joined[k] == 1.0 ? 1.0 - probability : probability;
       if (std::isfinite(joined[k]) && random_uniform(seed, k) < wrong) joined[k] = 1.0 - joined[k];
     }
   if (columns.contains("bridge_diameter_um") && columns.contains("sigma_bridge_diameter_um"))
@@ -207,22 +212,23 @@ Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
 }  // namespace
 
 /// The measured network of a scan, as `pendular segment --bridges` writes it, at rest or at a platen strain:
-/// compared by the shares of pairs that bridges join, over orientation, place and separation, and by the necks.
+/// compared by the shares of pairs that bridges join, over orientation, place and separation, and by the
+/// necks.
 const Kind& kinds::bridges() {
-  static const Kind kind{.name = "bridges",
-                         .required = {"bead_i", "bead_j"},
-                         .optional = {"gap_um", "sigma_gap_um", "probability", "bridge_diameter_um",
-                                      "sigma_bridge_diameter_um"},
-                         .least_rows = 20,
-                         .scale = Scale::network,
-                         .keys = {{"strain", {}, 0.0, 0.5, 0.0}, {"use", {"compare", "simulate"}}},
-                         .read = read,
-                         .check = check,
-                         .course = course,
-                         .simulate = simulate,
-                         .landmarks = landmarks,
-                         .perturbed = perturbed,
-                         .model_error = model_error};
+  static const Kind kind{
+      .name = "bridges",
+      .required = {"bead_i", "bead_j"},
+      .optional = {"gap_um", "sigma_gap_um", "probability", "bridge_diameter_um", "sigma_bridge_diameter_um"},
+      .least_rows = 20,
+      .scale = Scale::network,
+      .keys = {{"strain", {}, 0.0, 0.5, 0.0}, {"use", {"compare", "simulate"}}},
+      .read = read,
+      .check = check,
+      .course = course,
+      .simulate = simulate,
+      .landmarks = landmarks,
+      .perturbed = perturbed,
+      .model_error = model_error};
   return kind;
 }
 

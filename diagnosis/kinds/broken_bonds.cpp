@@ -12,11 +12,11 @@
 namespace pendular::diagnosis {
 namespace {
 
-const std::vector<double> kStrains = {0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09,
-                                      0.10, 0.12, 0.14, 0.16, 0.20, 0.25, 0.30};
-constexpr double kQuarter = 0.25;            // makes the root of a Poisson count of constant variance
-constexpr int kUsualRows = 9;                // of a count as it is usually kept
-constexpr double kError = 0.5, kReach = 3.0; // of the simulation, of a root
+const std::vector<double> kStrains = {0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08,
+                                      0.09, 0.10, 0.12, 0.14, 0.16, 0.20, 0.25, 0.30};
+constexpr double kQuarter = 0.25;             // makes the root of a Poisson count of constant variance
+constexpr int kUsualRows = 9;                 // of a count as it is usually kept
+constexpr double kError = 0.5, kReach = 3.0;  // of the simulation, of a root
 
 void check(const Sample&, Observation& observation, std::vector<std::string>&) {
   check_strain(observation, "strain");

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "diagnosis/curve_signature.h"
+#include "diagnosis/kinds/curve_signature.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
 
@@ -13,22 +13,22 @@ namespace pendular::diagnosis {
 namespace {
 
 // Closer where a curve bends: at its toe.
-const std::vector<double> kStrains = {0.001, 0.002, 0.003, 0.0045, 0.006, 0.008, 0.010, 0.0125, 0.015,
-                                      0.0175, 0.020, 0.0235, 0.027, 0.031, 0.035, 0.040, 0.045, 0.050,
-                                      0.055, 0.060, 0.065, 0.070, 0.075, 0.080, 0.085, 0.090, 0.10,
-                                      0.11, 0.12, 0.13, 0.14, 0.15, 0.17, 0.20, 0.25, 0.30};
-constexpr double kHalf = 8e-4;            // strain within which rows are read together
-constexpr double kLeastStress = 3e-3;     // over the largest: below it a logarithm is of noise
+const std::vector<double> kStrains = {0.001,  0.002, 0.003,  0.0045, 0.006, 0.008, 0.010, 0.0125, 0.015,
+                                      0.0175, 0.020, 0.0235, 0.027,  0.031, 0.035, 0.040, 0.045,  0.050,
+                                      0.055,  0.060, 0.065,  0.070,  0.075, 0.080, 0.085, 0.090,  0.10,
+                                      0.11,   0.12,  0.13,   0.14,   0.15,  0.17,  0.20,  0.25,   0.30};
+constexpr double kHalf = 8e-4;         // strain within which rows are read together
+constexpr double kLeastStress = 3e-3;  // over the largest: below it a logarithm is of noise
 const std::vector<double> kShares = {0.8, 0.6, 0.4, 0.3};  // of the stress at a turn, in its loop
-constexpr double kHalfShare = 0.03;        // of it, within which rows are read together
-constexpr double kSameTurn = 1.02;         // over the last strain, up to which loops are looked for
-// As it is usually measured: strain from row to row, error of a load cell over the largest force; and a modulus
-// over the polymer's that gives the order of the stresses.
+constexpr double kHalfShare = 0.03;                        // of it, within which rows are read together
+constexpr double kSameTurn = 1.02;  // over the last strain, up to which loops are looked for
+// As it is usually measured: strain from row to row, error of a load cell over the largest force; and a
+// modulus over the polymer's that gives the order of the stresses.
 constexpr double kLogged = 5e-4, kForceError = 3e-3, kRoughModulus = 10.0;
-constexpr double kLasting = 0.7;          // correlation of a load cell's noise from row to row
+constexpr double kLasting = 0.7;  // correlation of a load cell's noise from row to row
 // Errors of the simulation. By what programs with the same law differ (docs/engines.md): of stresses up to
-// failure, correlated along the curve, and beyond it (there 7 to 30 %). Judged: of the strain at which platens meet
-// the specimen, and of loops.
+// failure, correlated along the curve, and beyond it (there 7 to 30 %). Judged: of the strain at which
+// platens meet the specimen, and of loops.
 constexpr double kStressError = 0.005, kStressReach = 6.0, kFailedError = 0.15, kFailedReach = 1.5,
                  kSeatError = 5e-5, kUnloadingError = 0.006, kHysteresisError = 0.005, kLoopReach = 8.0;
 constexpr double kLateUnloadingError = 0.05, kLateHysteresisError = 0.02;  // of loops about failure
@@ -57,8 +57,8 @@ void check_turns(const Observation& observation) {
     from = now;
   }
   if (turns > std::max<std::size_t>(3, strain.size() / 4))
-    bad_input("{}: strain: found {} turns in {} rows, expected rows in order of time", observation.file.string(), turns,
-              strain.size());
+    bad_input("{}: strain: found {} turns in {} rows, expected rows in order of time",
+              observation.file.string(), turns, strain.size());
 }
 
 void check(const Sample& believed, Observation& observation, std::vector<std::string>&) {
@@ -97,8 +97,8 @@ std::vector<Feature> landmarks(const Observation& observation, const Columns& co
   return list.take();
 }
 
-/// Strain at which the stress of some rows first passes shares of that at the turn, from the turn down or from
-/// the bottom up.
+/// Strain at which the stress of some rows first passes shares of that at the turn, from the turn down or
+/// from the bottom up.
 std::vector<double> strains_at_shares(const Curve& curve, const Loop& loop, bool down) {
   const std::size_t from = down ? loop.top : loop.bottom,
                     to = down ? loop.bottom : std::min(loop.end, curve.strain.size() - 1);
@@ -122,7 +122,8 @@ void add_loops(FeatureList& list, const Observation& observation, const Columns&
   for (std::size_t n = 0; n < std::min(seen.size(), loops.size()); ++n) {
     const double turn = curve.strain[loops[n].top], stress = curve.stress[loops[n].top],
                  depth = turn - curve.strain[loops[n].bottom];
-    const auto down = strains_at_shares(curve, loops[n], true), up = strains_at_shares(curve, loops[n], false);
+    const auto down = strains_at_shares(curve, loops[n], true),
+               up = strains_at_shares(curve, loops[n], false);
     for (std::size_t k = 0; k < down.size(); ++k) {
       const std::string at = fmt::format("{}_at_{:.0f}_percent", n + 1, 100.0 * kShares[k]);
       list.ratio("unloading_modulus_" + at, stress * (1.0 - kShares[k]) / (turn - down[k]), down[k], turn);
@@ -159,9 +160,10 @@ Columns perturbed(const Observation& observation, unsigned long seed) {
 
 const std::map<std::string, double>& landmark_errors() {
   static const std::map<std::string, double> all = {
-      {"toe_strain", 1e-3},   {"toe_roundness", 0.1},  {"early_modulus", 0.04},     {"linear_modulus", 0.015},
-      {"linear_limit", 2.5e-3}, {"peak_strain", 2.5e-3}, {"peak_stress", 0.02},       {"softening", 0.1},
-      {"unloading_modulus", 0.02}, {"residual_strain", 1e-3}, {"loop_area", 0.1}};
+      {"toe_strain", 1e-3},      {"toe_roundness", 0.1},   {"early_modulus", 0.04},
+      {"linear_modulus", 0.015}, {"linear_limit", 2.5e-3}, {"peak_strain", 2.5e-3},
+      {"peak_stress", 0.02},     {"softening", 0.1},       {"unloading_modulus", 0.02},
+      {"residual_strain", 1e-3}, {"loop_area", 0.1}};
   return all;
 }
 
@@ -202,13 +204,14 @@ Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
   if (count == 0 || !features.front().name.starts_with("stress_at"))
     return errors_by_name(features, landmark_errors());
   const double failure = strain_of_failure(features);
-  Eigen::VectorXd stress = Eigen::VectorXd::Zero(count), failed = stress, unloading = stress, hysteresis = stress,
-                  seat = stress;
+  Eigen::VectorXd stress = Eigen::VectorXd::Zero(count), failed = stress, unloading = stress,
+                  hysteresis = stress, seat = stress;
   for (Eigen::Index k = 0; k < count; ++k) {
     const Feature& feature = features[static_cast<std::size_t>(k)];
     const bool late = feature.strain_to > kLate * failure;
     if (feature.name.starts_with("unloading")) unloading[k] = late ? kLateUnloadingError : kUnloadingError;
-    if (feature.name.starts_with("hysteresis")) hysteresis[k] = late ? kLateHysteresisError : kHysteresisError;
+    if (feature.name.starts_with("hysteresis"))
+      hysteresis[k] = late ? kLateHysteresisError : kHysteresisError;
     if (!feature.name.starts_with("stress_at")) continue;
     stress[k] = kStressError;
     if (feature.strain_to >= failure) failed[k] = kFailedError;
@@ -222,8 +225,9 @@ Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
 
 }  // namespace
 
-/// Engineering stress against strain from platen displacement, in order of time; strain may go down. Readings:
-/// the stress at fixed strains of first loading, secant moduli of unloadings and the hysteresis of loops.
+/// Engineering stress against strain from platen displacement, in order of time; strain may go down.
+/// Readings: the stress at fixed strains of first loading, secant moduli of unloadings and the hysteresis of
+/// loops.
 const Kind& kinds::compression() {
   static const Kind kind{.name = "compression",
                          .required = {"strain", "stress_pa"},

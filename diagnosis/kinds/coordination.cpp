@@ -7,15 +7,16 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kMostBridges = 14.0;  // per bead
+constexpr double kMostBridges = 14.0;                      // per bead
 constexpr double kRoughBridges = 6.0, kUsualError = 0.05;  // as it is usually measured
-constexpr double kError = 0.01;        // of the simulation
+constexpr double kError = 0.01;                            // of the simulation
 
 void check(const Sample&, Observation& observation, std::vector<std::string>&) {
   const auto& z = observation.column("z");
   if (*std::min_element(z.begin(), z.end()) < 0.0 || largest_of(z) > kMostBridges)
-    bad_input("{}: z: found {:.4g}, expected bridges per bead, 0 to 14", observation.file.string(),
-              *std::min_element(z.begin(), z.end()) < 0.0 ? *std::min_element(z.begin(), z.end()) : largest_of(z));
+    bad_input(
+        "{}: z: found {:.4g}, expected bridges per bead, 0 to 14", observation.file.string(),
+        *std::min_element(z.begin(), z.end()) < 0.0 ? *std::min_element(z.begin(), z.end()) : largest_of(z));
   check_sigma(observation, "z_sigma", kMostBridges);
 }
 

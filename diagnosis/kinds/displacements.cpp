@@ -8,10 +8,10 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "diagnosis/displacement_signature.h"
+#include "diagnosis/kinds/displacement_signature.h"
 #include "diagnosis/kinds/kind.h"
+#include "diagnosis/kinds/similarity.h"
 #include "diagnosis/kinds/tools.h"
-#include "diagnosis/similarity.h"
 #include "packing/bridges.h"
 #include "packing/tables.h"
 
@@ -204,7 +204,8 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
   check_sigma(observation, "sigma_um", kUm * believed.beads.diameter);
   for (double strain : scans_in(observation.columns)) {
     if (strain <= 0.0)
-      bad_input("{}: strain: found {:.4g}, expected the platen strain of a second scan, above 0", file, strain);
+      bad_input("{}: strain: found {:.4g}, expected the platen strain of a second scan, above 0", file,
+                strain);
     const Columns rows = rows_at(observation.columns, strain);
     if (std::set<double>(rows.at("bead_id").begin(), rows.at("bead_id").end()).size() !=
         rows.at("bead_id").size())
@@ -234,7 +235,8 @@ Columns simulate(const Observation& observation, const Simulated& simulated) {
       columns["bead_id"].push_back(static_cast<double>(frame.ids[k]));
       for (int axis = 0; axis < 3; ++axis) {
         columns[kPlaces[static_cast<std::size_t>(axis)]].push_back(kUm * frame.rest[k][axis]);
-        columns[kMotions[static_cast<std::size_t>(axis)]].push_back(kUm * scale * frame.displacement[k][axis]);
+        columns[kMotions[static_cast<std::size_t>(axis)]].push_back(kUm * scale *
+                                                                    frame.displacement[k][axis]);
       }
     };
     if (observation.beads.empty())
@@ -298,8 +300,7 @@ Columns shown(const Observation& planned, const Columns& simulated) {
 }
 
 Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
-  return errors_by_name(features,
-                        {{"deviatoric_share", 0.02}, {"tilt_share", 0.02}, {"wandering", 0.05}});
+  return errors_by_name(features, {{"deviatoric_share", 0.02}, {"tilt_share", 0.02}, {"wandering", 0.05}});
 }
 
 }  // namespace

@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "base/csv.h"
-#include "diagnosis/features.h"
-#include "diagnosis/observation.h"
-#include "diagnosis/simulated.h"
+#include "diagnosis/experiment/observation.h"
+#include "diagnosis/kinds/features.h"
+#include "diagnosis/kinds/simulated.h"
 
 namespace pendular::diagnosis {
 
 struct Experiment;
 
-/// What a simulation offers in the place of an observation: the sample as it was simulated, and its test where
-/// the kind needs one.
+/// What a simulation offers in the place of an observation: the sample as it was simulated, and its test
+/// where the kind needs one.
 struct Simulated {
   const Sample& sample;
   const SimulatedTest* test = nullptr;
@@ -29,8 +29,8 @@ struct KindKey {
   double lowest = 0.0, highest = 0.0, otherwise = 0.0;  ///< of a number
 };
 
-/// One kind of observation: everything that the diagnosis knows of it stands in the kind's own file. A hook is
-/// null where the kind has no part in the question.
+/// One kind of observation: everything that the diagnosis knows of it stands in the kind's own file. A hook
+/// is null where the kind has no part in the question.
 struct Kind {
   std::string name;
   std::vector<std::string> required = {}, optional = {};  ///< columns
@@ -41,8 +41,10 @@ struct Kind {
 
   /// Further columns, from the file's cells that are no numbers and from the specimen's beads.
   void (*read)(Observation& observation, const CsvTable& table) = nullptr;
-  /// BadInput for what cannot be: a wrong unit, a sign, an order. What is odd but usable goes into `warnings`.
-  void (*check)(const Sample& believed, Observation& observation, std::vector<std::string>& warnings) = nullptr;
+  /// BadInput for what cannot be: a wrong unit, a sign, an order. What is odd but usable goes into
+  /// `warnings`.
+  void (*check)(const Sample& believed, Observation& observation,
+                std::vector<std::string>& warnings) = nullptr;
   /// Adds what its test must show to the course of the simulated one; null: needs none.
   void (*course)(const Observation& observation, Sample::Compression& course) = nullptr;
   /// The columns that the observation would have had.
@@ -55,8 +57,8 @@ struct Kind {
   Eigen::VectorXd (*field)(const Observation& observation, const Columns& columns) = nullptr;
   /// Columns as another measurement of the same might have them.
   Columns (*perturbed)(const Observation& observation, unsigned long seed) = nullptr;
-  /// Columns of such a measurement as it is usually made, up to a platen strain: where it reads and with which
-  /// errors; what it will show is only rough. Null: it is not planned.
+  /// Columns of such a measurement as it is usually made, up to a platen strain: where it reads and with
+  /// which errors; what it will show is only rough. Null: it is not planned.
   Columns (*planned)(const Observation& observation, const Sample& believed, double strain) = nullptr;
   /// The planned columns once a simulation tells what they would show.
   Columns (*shown)(const Observation& planned, const Columns& simulated) = nullptr;

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/line_fit.h"
-#include "diagnosis/curve_signature.h"
+#include "diagnosis/kinds/curve_signature.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMostLateral = 5.0;  // over the platen's strain, of a specimen that barrels
 constexpr double kSignShows = 0.05;   // likewise, beyond noise
-constexpr double kRange = 0.03;  // strain over which the first ratio is read
+constexpr double kRange = 0.03;       // strain over which the first ratio is read
 const std::vector<double> kStrains = {0.005, 0.010, 0.015, 0.020, 0.027, 0.035, 0.042, 0.050, 0.060,
                                       0.070, 0.080, 0.09,  0.10,  0.12,  0.15,  0.20,  0.25,  0.30};
 constexpr double kHalf = 2e-3, kLasting = 0.7;
@@ -30,11 +30,13 @@ void check(const Sample&, Observation& observation, std::vector<std::string>& wa
   check_sigma(observation, "sigma", axial);
   if (widest > kMostLateral * axial)
     bad_input(
-        "{}: lateral_strain: found {:.4g} at platen strains up to {:.4g}, expected no more than these (is it in "
+        "{}: lateral_strain: found {:.4g} at platen strains up to {:.4g}, expected no more than these (is it "
+        "in "
         "per cent?)",
         observation.file.string(), widest, axial);
   if (observation.column("lateral_strain").back() < -kSignShows * axial)
-    warnings.push_back(observation.name + ": the specimen shrinks sideways as it is compressed; expansion is positive");
+    warnings.push_back(observation.name +
+                       ": the specimen shrinks sideways as it is compressed; expansion is positive");
 }
 
 void course(const Observation& observation, Sample::Compression& course) {

@@ -5,11 +5,11 @@
 namespace pendular::diagnosis {
 
 const std::vector<const Kind*>& all_kinds() {
-  static const std::vector<const Kind*> all = {
-      &kinds::compression(),      &kinds::lateral_strain(), &kinds::modulus_series(),
-      &kinds::bridge_stiffness(), &kinds::bridge_diameters(), &kinds::bridge_gaps(),
-      &kinds::coordination(),     &kinds::displacements(),  &kinds::bridges(),
-      &kinds::broken_bonds()};
+  static const std::vector<const Kind*> all = {&kinds::compression(),      &kinds::lateral_strain(),
+                                               &kinds::modulus_series(),   &kinds::bridge_stiffness(),
+                                               &kinds::bridge_diameters(), &kinds::bridge_gaps(),
+                                               &kinds::coordination(),     &kinds::displacements(),
+                                               &kinds::bridges(),          &kinds::broken_bonds()};
   return all;
 }
 

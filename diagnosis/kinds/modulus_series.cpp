@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/line_fit.h"
-#include "diagnosis/funicular.h"
+#include "diagnosis/experiment/funicular.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
 
@@ -23,9 +23,10 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
     for (const double polymer : observation.column("E_p_pa"))
       if (polymer < believed.bridges.youngs_modulus / kOtherPolymer ||
           polymer > believed.bridges.youngs_modulus * kOtherPolymer)
-        bad_input("{}: E_p_pa: found {:.3g} Pa beside a believed {:.3g} Pa, expected polymers alike (is it in {}?)",
-                  observation.file.string(), polymer, believed.bridges.youngs_modulus,
-                  polymer < believed.bridges.youngs_modulus ? "MPa or kPa" : "mPa");
+        bad_input(
+            "{}: E_p_pa: found {:.3g} Pa beside a believed {:.3g} Pa, expected polymers alike (is it in {}?)",
+            observation.file.string(), polymer, believed.bridges.youngs_modulus,
+            polymer < believed.bridges.youngs_modulus ? "MPa or kPa" : "mPa");
   if (observation.has("W"))
     for (const double content : observation.column("W"))
       if (content <= 0.0)
@@ -33,9 +34,9 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
   const auto& modulus = observation.column("modulus_pa");
   check_sigma(observation, "modulus_sigma_pa", largest_of(modulus));
   for (std::size_t k = 0; k < modulus.size(); ++k)
-    check_modulus(observation, "modulus_pa", modulus[k],
-                  observation.has("E_p_pa") ? observation.column("E_p_pa")[k]
-                                            : believed.bridges.youngs_modulus);
+    check_modulus(
+        observation, "modulus_pa", modulus[k],
+        observation.has("E_p_pa") ? observation.column("E_p_pa")[k] : believed.bridges.youngs_modulus);
 }
 
 std::vector<Feature> landmarks(const Observation& observation, const Columns& columns) {

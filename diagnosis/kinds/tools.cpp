@@ -13,7 +13,7 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kOther = 0.05, kOtherDifference = 0.03;       // errors of features without a name of their own
+constexpr double kOther = 0.05, kOtherDifference = 0.03;  // errors of features without a name of their own
 constexpr double kLeastModulus = 0.1, kLargestModulus = 1e3;  // over the polymer's
 constexpr double kLargestStrain = 0.6;
 constexpr double kWiderLater = 0.06;  // share of a strain within which rows are read together
@@ -21,7 +21,8 @@ constexpr double kWiderLater = 0.06;  // share of a strain within which rows are
 }  // namespace
 
 void FeatureList::ratio(const std::string& name, double value, double from, double to) {
-  if (value > 0.0 && std::isfinite(value)) all_.push_back({observation_, name, scale_, true, value, from, to});
+  if (value > 0.0 && std::isfinite(value))
+    all_.push_back({observation_, name, scale_, true, value, from, to});
 }
 
 void FeatureList::difference(const std::string& name, double value, double from, double to) {
@@ -80,9 +81,10 @@ std::vector<double> read_at(const std::vector<double>& x, const std::vector<doub
       if (from != first_x.begin()) --from;
       if (to != first_x.end()) ++to;
     }
-    const auto at = static_cast<std::size_t>(from - first_x.begin()), count = static_cast<std::size_t>(to - from);
-    found.push_back(
-        line_through(std::span(first_x).subspan(at, count), std::span(first_y).subspan(at, count)).at(strain));
+    const auto at = static_cast<std::size_t>(from - first_x.begin()),
+               count = static_cast<std::size_t>(to - from);
+    found.push_back(line_through(std::span(first_x).subspan(at, count), std::span(first_y).subspan(at, count))
+                        .at(strain));
   }
   return found;
 }
@@ -186,8 +188,9 @@ Eigen::MatrixXd errors_by_name(const std::vector<Feature>& features,
     const auto end = name.find_last_not_of("0123456789");
     const bool later = end + 1 < name.size() && name[end] == '_';
     const auto found = errors.find(later ? name.substr(0, end) : name);
-    size[static_cast<Eigen::Index>(k)] =
-        found != errors.end() ? found->second : features[k].logarithm ? kOther : kOtherDifference;
+    size[static_cast<Eigen::Index>(k)] = found != errors.end()   ? found->second
+                                         : features[k].logarithm ? kOther
+                                                                 : kOtherDifference;
   }
   return size.cwiseAbs2().asDiagonal();
 }

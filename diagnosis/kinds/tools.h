@@ -1,6 +1,7 @@
 #pragma once
 
-// What several kinds share: lists of features, perturbations, checks of columns, and errors of the simulation.
+// What several kinds share: lists of features, perturbations, checks of columns, and errors of the
+// simulation.
 
 #include <Eigen/Core>
 
@@ -8,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/features.h"
-#include "diagnosis/observation.h"
+#include "diagnosis/experiment/observation.h"
+#include "diagnosis/kinds/features.h"
 
 namespace pendular::diagnosis {
 
@@ -59,7 +60,8 @@ void check_rising(const Observation& observation, const std::string& column);
 void check_sigma(const Observation& observation, const std::string& column, double most);
 /// That the median of a length is of the order of the beads, µm.
 void check_length(const Observation& observation, const std::string& column, double least, double most);
-/// That a stiffness is between a tenth and a thousand times the polymer's; the message says which unit would fit.
+/// That a stiffness is between a tenth and a thousand times the polymer's; the message says which unit would
+/// fit.
 void check_modulus(const Observation& observation, const std::string& column, double modulus, double polymer);
 
 /// Independent errors by the features' names; later unloadings (…_2, …_3) are as the first one.

@@ -1,5 +1,6 @@
 #include "pipette/report.h"
 
+#include <nlohmann/json.hpp>
 #include <fmt/format.h>
 
 #include <cmath>

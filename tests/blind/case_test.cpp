@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "blind/truth.h"
 #include "blind/verdict.h"
-#include "diagnosis/conditions.h"
-#include "diagnosis/curve_signature.h"
+#include "diagnosis/experiment/conditions.h"
+#include "diagnosis/kinds/curve_signature.h"
 #include "scratch.h"
 #include "small_split.h"
 

@@ -1,12 +1,13 @@
 #include "blind/scans.h"
 
+#include <nlohmann/json.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "diagnosis/similarity.h"
+#include "diagnosis/kinds/similarity.h"
 #include "packing/statistics.h"
 #include "scratch.h"
 #include "small_split.h"

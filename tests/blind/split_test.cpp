@@ -63,8 +63,10 @@ TEST(Split, RefusesWhatItCannotUse) {
   EXPECT_NE(refusal("cases = 3", "cases = 3\nengines = [\"yadde\"]").find("\"yade\""), std::string::npos);
   EXPECT_NE(refusal("cases = 3", "cases = 3\nengines = []").find("at least one engine"), std::string::npos);
   EXPECT_NE(refusal("height_um = 900\n", "").find("height_um is missing"), std::string::npos);
-  EXPECT_NE(refusal("[test]", "[seen_from]\nplaten_tlt = 0.1\n[test]").find("\"platen_tilt\""), std::string::npos);
-  EXPECT_NE(refusal("[test]", "[seen_from]\nplaten_tilt = 9.0\n[test]").find("expected 0 to 2"), std::string::npos);
+  EXPECT_NE(refusal("[test]", "[seen_from]\nplaten_tlt = 0.1\n[test]").find("\"platen_tilt\""),
+            std::string::npos);
+  EXPECT_NE(refusal("[test]", "[seen_from]\nplaten_tilt = 9.0\n[test]").find("expected 0 to 2"),
+            std::string::npos);
   EXPECT_NE(refusal("small_sample.toml", "none.toml").find("none.toml"), std::string::npos);
 }
 

@@ -42,7 +42,8 @@ TEST_P(BadInput, GivesOneLineAndTheRightStatus) {
   write_text(folder / "metres.csv", "bead_id,x_um,y_um,z_um,diameter_um\n1,0,0,0,2e-4\n2,0,0,2.05e-4,2e-4\n");
   write_text(folder / "nan.csv", "bead_id,x_um,y_um,z_um,diameter_um\n1,0,nan,0,200\n");
   write_text(folder / "column.csv", "bead_id,x_um,y_um,diameter_um\n1,0,0,200\n");
-  write_text(folder / "measured.toml", test::small_sample("max_strain = 0.02\nframes = 2\n", "[beads]\ndiameters = \"measured\"\n"));
+  write_text(folder / "measured.toml",
+             test::small_sample("max_strain = 0.02\nframes = 2\n", "[beads]\ndiameters = \"measured\"\n"));
   write_text(folder / "unknown.toml", "[beads]\ndiameters = \"exact\"\n");
   write_text(folder / "stated.csv", std::string(kStated) + "1,0,0,0,200,0.1,0.1\n2,0,0,205,200,0.1,0.1\n");
   write_text(folder / "beyond.csv", std::string(kStated) + "1,0,0,0,200,0.1,0.1\n2,0,0,180,200,0.1,0.1\n");

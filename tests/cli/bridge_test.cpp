@@ -35,7 +35,8 @@ TEST(Bridge, WritesTheContractsColumnsAndTheConvergedValues) {
 
 TEST(Bridge, TakesRangesListsAndASample) {
   ScratchFolder folder;
-  write_text(folder / "s.toml", test::sample_file("[beads]\ndiameter_um = 365\n[bridges]\nyoungs_modulus_pa = 5e4\n"));
+  write_text(folder / "s.toml",
+             test::sample_file("[beads]\ndiameter_um = 365\n[bridges]\nyoungs_modulus_pa = 5e4\n"));
   const Outcome outcome = shell(folder.path(), "$P bridge s.toml --d-um 50:70:3 --gap-um 1,2 -o out.csv");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   const CsvTable table = read_csv(folder / "out.csv", {"d_um", "D_um", "gap_um", "E_pa", "nu", "kn_n_per_m"});

@@ -104,13 +104,13 @@ TEST(Chain, FinneyPackComesBackAndCompresses) {
   const auto data = shared_data("finney/FinneyPack.txt");
   if (!data) GTEST_SKIP() << "the trial data is absent: finney/FinneyPack.txt";
   ScratchFolder folder;
-  write_text(folder / "s.toml",
-             test::sample_file(
-                 "[beads]\ndiameter_um = 200\ndiameters = \"measured\"\n"
-                 "[bridges]\nnormal_stiffness_n_per_m = 5760\ntangential_stiffness_n_per_m = 325\n"
-             "[specimen]\ndiameter_um = 3800\nheight_um = 3800\n"
-             "[phantom]\nvoxel_um = 10\nwall_thickness_um = 0\npiston_contrast = 0\n"
-             "[compression]\nmax_strain = 0.003\nframes = 1\n"));
+  write_text(
+      folder / "s.toml",
+      test::sample_file("[beads]\ndiameter_um = 200\ndiameters = \"measured\"\n"
+                        "[bridges]\nnormal_stiffness_n_per_m = 5760\ntangential_stiffness_n_per_m = 325\n"
+                        "[specimen]\ndiameter_um = 3800\nheight_um = 3800\n"
+                        "[phantom]\nvoxel_um = 10\nwall_thickness_um = 0\npiston_contrast = 0\n"
+                        "[compression]\nmax_strain = 0.003\nframes = 1\n"));
   expect_done(
       shell(folder.path(), "$P convert '" + data->string() + "' finney.vtp --from xyz --diameter-um 200"));
   expect_done(shell(folder.path(), "$P phantom s.toml --packing finney.vtp -o v.mha"));

@@ -22,11 +22,10 @@ using test::shell;
 constexpr double kSigma = 0.1e-6;
 
 std::string sample(const std::string& diameters) {
-  return test::sample_file(
-      "[beads]\n" + diameters +
-         "[bridges]\nnormal_stiffness_n_per_m = 5760\ntangential_stiffness_n_per_m = 325\n"
-         "[specimen]\ndiameter_um = 1500\nheight_um = 1500\nvolume_fraction = 0.57\n"
-         "[compression]\nmax_strain = 0.03\nframes = 0\n");
+  return test::sample_file("[beads]\n" + diameters +
+                           "[bridges]\nnormal_stiffness_n_per_m = 5760\ntangential_stiffness_n_per_m = 325\n"
+                           "[specimen]\ndiameter_um = 1500\nheight_um = 1500\nvolume_fraction = 0.57\n"
+                           "[compression]\nmax_strain = 0.03\nframes = 0\n");
 }
 
 /// Centres and diameters with the errors that are stated, as a tomogram gives them.

@@ -17,10 +17,9 @@ using test::shell;
 void write_folder(const fs::path& folder) {
   make_folder(folder);
   write_text(folder / "s.toml",
-             test::sample_file(
-                 "[specimen]\ndiameter_um = 1000\nheight_um = 1000\nvolume_fraction = 0.53\n"
-                 "[contact]\nbond_friction_limit = false\n"
-             "[compression]\nmax_strain = 0.08\nframes = 1\nspeed = 1e-3\n"));
+             test::sample_file("[specimen]\ndiameter_um = 1000\nheight_um = 1000\nvolume_fraction = 0.53\n"
+                               "[contact]\nbond_friction_limit = false\n"
+                               "[compression]\nmax_strain = 0.08\nframes = 1\nspeed = 1e-3\n"));
   const auto sweep = [&](const std::string& name, const std::string& rest) {
     write_text(folder / (name + ".toml"),
                "[sweep]\nname = \"" + name + "\"\nsample = \"s.toml\"\nrealisations = 2\n" + rest);

@@ -9,7 +9,7 @@
 #include "base/random.h"
 #include "dem_core/checkpoint.h"
 #include "dem_core/run_folder.h"
-#include "dem_core/stepper.h"
+#include "dem_core/step/stepper.h"
 #include "micromechanics/stiffness.h"
 #include "packing/polydata.h"
 #include "scratch.h"

@@ -1,4 +1,4 @@
-#include "dem_core/curve.h"
+#include "dem_core/observe/curve.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "dem_core/linear_response.h"
+#include "dem_core/linear/linear_response.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "dem_core/stepper.h"
+#include "dem_core/step/stepper.h"
 #include "specimens.h"
 
 namespace pendular {

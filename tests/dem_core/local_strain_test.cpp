@@ -1,11 +1,11 @@
-#include "dem_core/local_strain.h"
+#include "kinematics/local_strain.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/random.h"
-#include "dem_core/shear_band.h"
+#include "kinematics/shear_band.h"
 
 namespace pendular {
 namespace {

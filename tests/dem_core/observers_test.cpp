@@ -4,14 +4,14 @@
 #include <limits>
 #include <set>
 
-#include "dem_core/avalanches.h"
 #include "dem_core/compress.h"
-#include "dem_core/frame.h"
-#include "dem_core/frame_observers.h"
-#include "dem_core/lateral_strain.h"
-#include "dem_core/quasi_static.h"
-#include "dem_core/stepper.h"
-#include "dem_core/stress_field.h"
+#include "dem_core/observe/avalanches.h"
+#include "dem_core/observe/frame.h"
+#include "dem_core/observe/frame_observers.h"
+#include "dem_core/observe/lateral_strain.h"
+#include "dem_core/observe/quasi_static.h"
+#include "dem_core/observe/stress_field.h"
+#include "dem_core/step/stepper.h"
 #include "packing/polydata.h"
 #include "scratch.h"
 #include "specimens.h"

@@ -1,4 +1,4 @@
-#include "dem_core/pair.h"
+#include "dem_core/law/pair.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "dem_core/platen_program.h"
+#include "dem_core/drive/platen_program.h"
 
 #include <gtest/gtest.h>
 

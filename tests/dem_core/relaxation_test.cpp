@@ -1,4 +1,4 @@
-#include "dem_core/relaxation.h"
+#include "dem_core/drive/relaxation.h"
 
 #include <gtest/gtest.h>
 

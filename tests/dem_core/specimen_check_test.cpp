@@ -1,4 +1,4 @@
-#include "dem_core/specimen_check.h"
+#include "dem_core/drive/specimen_check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "dem_core/stepper.h"
+#include "dem_core/step/stepper.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "dem_core/reference_step.h"
-#include "dem_core/step_kernels.h"
+#include "dem_core/step/reference_step.h"
+#include "dem_core/step/step_kernels.h"
 #include "specimens.h"
 
 namespace pendular {

@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "base/error.h"
-#include "diagnosis/experiment.h"
+#include "diagnosis/experiment/experiment.h"
 #include "followed.h"
 #include "packing/tables.h"
 #include "sample_file.h"
@@ -28,8 +28,9 @@ using test::followed_text;
 Experiment read(const ScratchFolder& folder, const std::string& kind, const std::string& table,
                 const std::string& keys = "") {
   write_text(folder / "sample.toml",
-             pendular::test::sample_file("[beads]\ndiameter_um = 200\n[specimen]\ndiameter_um = 1300\nheight_um = 1200\n"
-             "[bridges]\nyoungs_modulus_pa = 1.5e6\ndiameter_um = 74\ngap_um = 2\n"));
+             pendular::test::sample_file(
+                 "[beads]\ndiameter_um = 200\n[specimen]\ndiameter_um = 1300\nheight_um = 1200\n"
+                 "[bridges]\nyoungs_modulus_pa = 1.5e6\ndiameter_um = 74\ngap_um = 2\n"));
   write_beads(folder / "beads.csv", followed_specimen(), {});
   write_text(folder / "table.csv", table);
   write_text(folder / "e.toml",

@@ -1,12 +1,12 @@
-#include "diagnosis/bank.h"
-#include "diagnosis/law_readings.h"
+#include "diagnosis/bank/bank.h"
+#include "diagnosis/bank/law_readings.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "diagnosis/specimens.h"
+#include "diagnosis/experiment/specimens.h"
 #include "measured_beads.h"
 #include "observations.h"
 #include "packing/tables.h"
@@ -58,8 +58,10 @@ TEST(Bank, RunsTheOtherReadingsOfTheLaw) {
     EXPECT_EQ(magnitudes(plan, reading.id), std::set<double>{1.0}) << reading.id;
     Sample other = plan.conditions.front().sample;
     reading.other(other);
-    const auto asked = std::find_if(plan.points.begin(), plan.points.end(), [&](const auto& p) { return p.id == reading.id; });
-    EXPECT_EQ(sample_text(changed_condition(experiment, plan.conditions.front(), asked->changes)), sample_text(other));
+    const auto asked = std::find_if(plan.points.begin(), plan.points.end(),
+                                    [&](const auto& p) { return p.id == reading.id; });
+    EXPECT_EQ(sample_text(changed_condition(experiment, plan.conditions.front(), asked->changes)),
+              sample_text(other));
     EXPECT_NE(sample_text(other), sample_text(plan.conditions.front().sample));
     reading.other(other);
     EXPECT_EQ(sample_text(other), sample_text(plan.conditions.front().sample));

@@ -1,4 +1,4 @@
-#include "diagnosis/believed.h"
+#include "diagnosis/experiment/believed.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "diagnosis/calibration.h"
+#include "diagnosis/inference/calibration.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "diagnosis/conditions.h"
+#include "diagnosis/experiment/conditions.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,8 @@ TEST(Conditions, OneSpecimenIsSimulatedOnceAndAsFarAsAnyObservationGoes) {
   experiment.observations = {
       observation(kinds::compression(), "A",
                   {{"strain", {0.0, 0.02, 0.01, 0.04}}, {"stress_pa", {0, 2e5, 0, 5e5}}}),
-      observation(kinds::lateral_strain(), "side", {{"strain", {0.0, 0.06}}, {"lateral_strain", {0.0, 0.02}}}),
+      observation(kinds::lateral_strain(), "side",
+                  {{"strain", {0.0, 0.06}}, {"lateral_strain", {0.0, 0.02}}}),
       observation(kinds::coordination(), "z", {{"z", {7.0}}, {"z_sigma", {0.1}}}),
       observation(kinds::bridge_gaps(), "gaps", {{"gap_um", {1, 2, 3, 4}}})};
   const auto conditions = conditions_of(experiment);
@@ -26,7 +27,8 @@ TEST(Conditions, OneSpecimenIsSimulatedOnceAndAsFarAsAnyObservationGoes) {
 
 TEST(Conditions, AnotherPolymerOrOtherBeadsAreAnotherSpecimen) {
   Experiment experiment;
-  const auto curve = observation(kinds::compression(), "A", {{"strain", {0.0, 0.04}}, {"stress_pa", {0, 5e5}}});
+  const auto curve =
+      observation(kinds::compression(), "A", {{"strain", {0.0, 0.04}}, {"stress_pa", {0, 5e5}}});
   experiment.observations = {curve, curve, curve};
   experiment.observations[1].set = {{"bridges.youngs_modulus_pa", 6.4e5}};
   experiment.observations[2].beads = "beads.csv";

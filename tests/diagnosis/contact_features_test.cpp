@@ -1,12 +1,12 @@
-#include "diagnosis/contact_features.h"
+#include "diagnosis/bank/contact_features.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/feature_values.h"
-#include "diagnosis/specimens.h"
+#include "diagnosis/bank/feature_values.h"
+#include "diagnosis/experiment/specimens.h"
 #include "effects/compress.h"
 #include "measured_beads.h"
 #include "packing/bridges.h"

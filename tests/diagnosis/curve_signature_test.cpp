@@ -1,4 +1,4 @@
-#include "diagnosis/curve_signature.h"
+#include "diagnosis/kinds/curve_signature.h"
 
 #include <gtest/gtest.h>
 

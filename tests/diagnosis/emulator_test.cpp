@@ -1,4 +1,4 @@
-#include "diagnosis/emulator.h"
+#include "diagnosis/bank/emulator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "diagnosis/evidence.h"
+#include "diagnosis/inference/evidence.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "diagnosis/reduced_space.h"
+#include "diagnosis/inference/reduced_space.h"
 
 namespace pendular::diagnosis {
 namespace {

@@ -1,4 +1,4 @@
-#include "diagnosis/features.h"
+#include "diagnosis/kinds/features.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ using test::observation;
 using test::sigma;
 using test::value;
 
-/// A stiff curve with a toe and a soft end, to 8 % of strain. Half of the variance of a load cell's noise lasts
-/// from row to row.
+/// A stiff curve with a toe and a soft end, to 8 % of strain. Half of the variance of a load cell's noise
+/// lasts from row to row.
 Observation curve(double noise, std::uint64_t seed, bool sigma_given) {
   Columns columns;
   double lasting = random_normal(seed + 1000, 0);
@@ -46,7 +46,8 @@ TEST(Features, SigmasOfACurveAreTheScatterOfItsRepeats) {
                                       {Level::landmarks, "peak_stress"},
                                       {Level::readings, "stress_at_2.00_percent"},
                                       {Level::readings, "stress_at_6.00_percent"}}) {
-      const double found = sigma(curve(noise, 1, sigma_given), name, level), scatter = scatter_of(level, name);
+      const double found = sigma(curve(noise, 1, sigma_given), name, level),
+                   scatter = scatter_of(level, name);
       EXPECT_LT(found, 2.0 * scatter) << name;
       EXPECT_GT(found, 0.5 * scatter) << name;
     }

@@ -1,4 +1,4 @@
-#include "diagnosis/field_readings.h"
+#include "diagnosis/bank/field_readings.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "diagnosis/experiment.h"
+#include "diagnosis/experiment/experiment.h"
 #include "followed.h"
 #include "packing/tables.h"
 #include "sample_file.h"

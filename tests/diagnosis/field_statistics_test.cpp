@@ -1,4 +1,4 @@
-#include "diagnosis/field_statistics.h"
+#include "diagnosis/kinds/field_statistics.h"
 
 #include <gtest/gtest.h>
 

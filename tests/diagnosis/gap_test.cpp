@@ -1,4 +1,4 @@
-#include "diagnosis/gap.h"
+#include "diagnosis/inference/gap.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "diagnosis/judgement.h"
+#include "diagnosis/inference/judgement.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/shrinkage.h"
+#include "diagnosis/repair/shrinkage.h"
 #include "diagnosis/verdict.h"
 #include "signatures.h"
 

@@ -1,4 +1,4 @@
-#include "diagnosis/leading.h"
+#include "diagnosis/inference/leading.h"
 #include "signatures.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "base/temporary_folder.h"
-#include "diagnosis/specimens.h"
+#include "diagnosis/experiment/specimens.h"
 #include "packing/bridges.h"
 #include "packing/statistics.h"
 #include "packing/tables.h"
@@ -53,7 +53,8 @@ class MeasuredNetwork : public testing::Test {
   }
 
   Packing simulated(int member) const {
-    return read_packing(beads_of_member(condition_, member, condition_.sample, folder_.path() / "members").file);
+    return read_packing(
+        beads_of_member(condition_, member, condition_.sample, folder_.path() / "members").file);
   }
 
   TemporaryFolder folder_;
@@ -77,7 +78,8 @@ TEST_F(MeasuredNetwork, NecksOfOtherMembersAreOffByTheirErrors) {
   double square = 0.0, count = 0.0;
   for (std::size_t k = 0; k < measured_.size(); ++k) {
     if (measured_[k].state != BridgeState::bridge) continue;
-    square += std::pow((packing.bridges[k].diameter - measured_[k].diameter) / measured_[k].sigma_diameter, 2);
+    square +=
+        std::pow((packing.bridges[k].diameter - measured_[k].diameter) / measured_[k].sigma_diameter, 2);
     count += 1.0;
   }
   // χ² over its degrees of freedom, within four of its standard deviations.

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/bank_tests.h"
+#include "diagnosis/advice/planning.h"
+#include "diagnosis/bank/bank_tests.h"
+#include "diagnosis/bank/feature_values.h"
 #include "diagnosis/diagnose.h"
-#include "diagnosis/feature_values.h"
-#include "diagnosis/further_measurements.h"
+#include "diagnosis/experiment/further_measurements.h"
 #include "diagnosis/kinds/kind.h"
-#include "diagnosis/planning.h"
 #include "effects/list.h"
 #include "sample_file.h"
 #include "scratch.h"

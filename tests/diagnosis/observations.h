@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "diagnosis/feature_values.h"
+#include "diagnosis/bank/feature_values.h"
 #include "diagnosis/kinds/kind.h"
 
 namespace pendular::diagnosis::test {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "diagnosis/signature.h"
+#include "diagnosis/bank/signature.h"
 
 namespace pendular::diagnosis::test {
 

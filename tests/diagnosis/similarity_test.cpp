@@ -1,4 +1,4 @@
-#include "diagnosis/similarity.h"
+#include "diagnosis/kinds/similarity.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-#include "diagnosis/simulated.h"
+#include "diagnosis/kinds/simulated.h"
 
 #include <gtest/gtest.h>
 

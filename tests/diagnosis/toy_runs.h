@@ -9,7 +9,7 @@
 
 #include "base/files.h"
 #include "base/random.h"
-#include "diagnosis/runner.h"
+#include "diagnosis/bank/runner.h"
 
 namespace pendular::diagnosis::test {
 

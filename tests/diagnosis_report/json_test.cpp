@@ -1,5 +1,6 @@
 #include "diagnosis_report/json.h"
 
+#include <nlohmann/json.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>

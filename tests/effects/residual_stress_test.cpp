@@ -1,7 +1,7 @@
 #include "tests.h"
 
-#include "dem_core/forces.h"
-#include "dem_core/quasi_static.h"
+#include "dem_core/observe/quasi_static.h"
+#include "dem_core/step/forces.h"
 
 namespace pendular::effects::test {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dem_core/linear_response.h"
+#include "dem_core/linear/linear_response.h"
 #include "effects/compress.h"
 #include "scratch.h"
 #include "specimens.h"

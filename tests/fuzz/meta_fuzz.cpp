@@ -1,5 +1,5 @@
 #include "fuzz.h"
-#include "segmentation/voxel_header.h"
+#include "volume/voxel_header.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace pendular;

@@ -134,7 +134,8 @@ TEST(Statistics, FinneyPacking) {
   constexpr double radius = 1e-4;  // m
   Packing packing = read_exchange(*file, ExchangeFormat::xyz, 2.0 * radius);
   for (auto& bead : packing.beads) bead.boundary = bead.centre.norm() > 14.0 * radius;
-  EXPECT_NEAR(coordination(packing.beads, candidate_bridges(packing.beads, 0.064 * 2.0 * radius)).mean, 8.2, 0.1);
+  EXPECT_NEAR(coordination(packing.beads, candidate_bridges(packing.beads, 0.064 * 2.0 * radius)).mean, 8.2,
+              0.1);
   const double fraction =
       volume_fraction_within(packing.beads, {22.0 * radius, 22.0 * radius, 0, 0, -11.0 * radius});
   EXPECT_GT(fraction, 0.637 - 0.001);

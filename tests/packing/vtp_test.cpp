@@ -1,5 +1,6 @@
 #include "packing/vtp.h"
 
+#include <nlohmann/json.hpp>
 #include <gtest/gtest.h>
 
 #include "base/error.h"

@@ -24,7 +24,7 @@
 
 #include "base/files.h"
 #include "dem_core/simulation.h"
-#include "dem_core/stepper.h"
+#include "dem_core/step/stepper.h"
 #include "packing/bridges.h"
 #include "packing/exchange.h"
 #include "packing/generate.h"

@@ -2,10 +2,10 @@
 
 #include <functional>
 
-#include "specimens.h"
 #include "base/random.h"
-#include "dem_core/joints.h"
-#include "diagnosis/place.h"
+#include "dem_core/linear/joints.h"
+#include "diagnosis/repair/place.h"
+#include "specimens.h"
 
 namespace pendular::test {
 
@@ -22,10 +22,10 @@ inline std::vector<Vec3> network_motion(const Simulation& specimen,
   const auto joints = joints_of(specimen, kScanStrain * specimen.initial_height);
   NodeVector x = NodeVector::Zero(6 * static_cast<Eigen::Index>(specimen.beads.size() + 2));
   for (std::size_t k = 0; k < specimen.beads.size(); ++k)
-    x[6 * static_cast<Eigen::Index>(k) + 2] =
-        kScanStrain * (specimen.top.z - specimen.beads.position[k].z());
+    x[6 * static_cast<Eigen::Index>(k) + 2] = kScanStrain * (specimen.top.z - specimen.beads.position[k].z());
   x[6 * static_cast<Eigen::Index>(specimen.beads.size()) + 2] = kScanStrain * specimen.initial_height;
-  const SpringNetwork network = network_of(specimen, joints, closures_at(nodes_of(specimen), joints, x), true);
+  const SpringNetwork network =
+      network_of(specimen, joints, closures_at(nodes_of(specimen), joints, x), true);
   auto springs = network.springs();
   for (auto& spring : springs) {
     const double factor = softer(specimen.beads.position[static_cast<std::size_t>(spring.i)]);
@@ -54,7 +54,8 @@ inline std::vector<std::int64_t> ids_of(const Simulation& specimen) {
 
 /// Ten members that scatter by 0.05 µm, and a measurement with noise of its own.
 inline diagnosis::ScannedMotion scan_of(const Simulation& specimen,
-                                        const std::function<double(const Vec3&)>& softer, std::uint64_t seed) {
+                                        const std::function<double(const Vec3&)>& softer,
+                                        std::uint64_t seed) {
   diagnosis::ScannedMotion scan{kScanStrain, ids_of(specimen), specimen.beads.position, {}, kScanSigma, {}};
   const auto as_believed = network_motion(specimen, [](const Vec3&) { return 1.0; });
   for (std::uint64_t member = 0; member < 10; ++member)

@@ -1,4 +1,4 @@
-#include "dem_core/stiffness_sensitivity.h"
+#include "dem_core/linear/stiffness_sensitivity.h"
 
 #include <gtest/gtest.h>
 
@@ -26,8 +26,8 @@ SpringNetwork random_network() {
   std::vector<NetworkSpring> springs;
   const auto add = [&](int i, int j, const Vec3& n, double arm_j) {
     const auto k = static_cast<std::uint64_t>(springs.size());
-    springs.push_back({i, j, n, 1.1, arm_j, 1.0 + random_uniform(2, 4 * k), 0.2 + random_uniform(2, 4 * k + 1),
-                       0.05, 0.03, 0.1 * random_normal(2, 4 * k + 3)});
+    springs.push_back({i, j, n, 1.1, arm_j, 1.0 + random_uniform(2, 4 * k),
+                       0.2 + random_uniform(2, 4 * k + 1), 0.05, 0.03, 0.1 * random_normal(2, 4 * k + 3)});
   };
   for (int i = 0; i < beads; ++i) {
     for (int j = i + 1; j < beads; ++j)

@@ -1,9 +1,9 @@
-#include "segmentation/ball_fit.h"
+#include "segmentation/fit/ball_fit.h"
 
 #include <gtest/gtest.h>
 
 #include "balls.h"
-#include "segmentation/ball_profile.h"
+#include "segmentation/fit/ball_profile.h"
 
 namespace pendular {
 namespace {

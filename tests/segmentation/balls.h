@@ -6,7 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "segmentation/volume.h"
+#include "volume/volume.h"
 
 namespace pendular::test {
 

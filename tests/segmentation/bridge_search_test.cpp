@@ -1,4 +1,4 @@
-#include "segmentation/bridge_search.h"
+#include "segmentation/bridges/bridge_search.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 #include "base/random.h"
 #include "packing/bridges.h"
 #include "packing/generate.h"
+#include "phantom/phantom.h"
 #include "scratch.h"
-#include "segmentation/crevice.h"
-#include "segmentation/neck_statistics.h"
-#include "segmentation/phantom.h"
-#include "segmentation/qa.h"
+#include "segmentation/bridges/crevice.h"
+#include "segmentation/bridges/neck_statistics.h"
+#include "segmentation/qa/qa.h"
 #include "segmentation/segment.h"
 
 namespace pendular {

@@ -8,7 +8,7 @@
 #include "packing/bridges.h"
 #include "packing/generate.h"
 #include "packing/packing.h"
-#include "segmentation/phantom.h"
+#include "phantom/phantom.h"
 
 namespace pendular::test {
 

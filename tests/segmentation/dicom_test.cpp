@@ -1,4 +1,4 @@
-// ITK brings an older Eigen: see segmentation/itk_images.h.
+// ITK brings an older Eigen: see volume/itk_images.h.
 #include <Eigen/Core>
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
@@ -13,7 +13,7 @@
 #include "mutation.h"
 #include "read_error.h"
 #include "scratch.h"
-#include "segmentation/volume.h"
+#include "volume/volume.h"
 
 namespace pendular {
 namespace {

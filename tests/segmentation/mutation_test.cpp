@@ -1,7 +1,7 @@
 #include "mutation.h"
 
 #include "scratch.h"
-#include "segmentation/volume.h"
+#include "volume/volume.h"
 
 namespace pendular {
 namespace {

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "comparison.h"
-#include "segmentation/phantom.h"
+#include "phantom/phantom.h"
 #include "segmentation/segment.h"
 
 namespace pendular {

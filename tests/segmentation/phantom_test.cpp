@@ -1,4 +1,4 @@
-#include "segmentation/phantom.h"
+#include "phantom/phantom.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "segmentation/volume.h"
+#include "volume/volume.h"
 
 namespace pendular::test {
 

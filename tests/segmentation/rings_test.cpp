@@ -1,4 +1,4 @@
-#include "segmentation/rings.h"
+#include "segmentation/fit/rings.h"
 
 #include <gtest/gtest.h>
 

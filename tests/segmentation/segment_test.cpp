@@ -10,10 +10,10 @@
 #include "comparison.h"
 #include "packing/bridges.h"
 #include "packing/generate.h"
+#include "phantom/phantom.h"
 #include "scratch.h"
-#include "segmentation/phantom.h"
-#include "segmentation/qa.h"
-#include "segmentation/resample.h"
+#include "segmentation/qa/qa.h"
+#include "volume/resample.h"
 
 namespace pendular {
 namespace {

@@ -1,4 +1,4 @@
-#include "segmentation/volume.h"
+#include "volume/volume.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>

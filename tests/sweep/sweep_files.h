@@ -12,10 +12,11 @@ namespace pendular::test {
 /// A sample of about a hundred beads, whose compression takes a fraction of a second.
 inline std::string tiny_sample(const std::string& compression = "max_strain = 0.01\nframes = 1\n",
                                const std::string& more = "") {
-  return sample_file("[bridges]\nnormal_stiffness_n_per_m = 5760\ntangential_stiffness_n_per_m = 325\n"
-         "[specimen]\ndiameter_um = 1000\nheight_um = 1000\nvolume_fraction = 0.53\n"
-         "[compression]\n" +
-         compression + more);
+  return sample_file(
+      "[bridges]\nnormal_stiffness_n_per_m = 5760\ntangential_stiffness_n_per_m = 325\n"
+      "[specimen]\ndiameter_um = 1000\nheight_um = 1000\nvolume_fraction = 0.53\n"
+      "[compression]\n" +
+      compression + more);
 }
 
 /// Writes s.toml and sweep.toml; `rest` follows the head of the sweep file.

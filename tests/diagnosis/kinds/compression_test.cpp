@@ -53,17 +53,21 @@ TEST(Compression, ReadingsAreTheStressAtFixedStrains) {
 TEST(Compression, ReadingsOfALoopAreItsSecantModulusAndItsHysteresis) {
   // The platen turns back and comes again along one straight line.
   for (const char* share : {"80", "60", "40", "30"}) {
-    EXPECT_NEAR(value(measured(), fmt::format("unloading_modulus_1_at_{}_percent", share), Level::readings) / kUnloading,
+    EXPECT_NEAR(value(measured(), fmt::format("unloading_modulus_1_at_{}_percent", share), Level::readings) /
+                    kUnloading,
                 1.0, 0.005);
-    EXPECT_NEAR(value(measured(), fmt::format("hysteresis_1_at_{}_percent", share), Level::readings), 0.0, 0.005);
+    EXPECT_NEAR(value(measured(), fmt::format("hysteresis_1_at_{}_percent", share), Level::readings), 0.0,
+                0.005);
   }
 }
 
 TEST(Compression, MisreadStrainsSoftenUnloadings) {
-  // A machine in series: the strain that is read has c σ besides; 1/E grows by c, and a loop without area has none.
+  // A machine in series: the strain that is read has c σ besides; 1/E grows by c, and a loop without area has
+  // none.
   constexpr double kCompliance = 1e-8;
   Columns read = curve();
-  for (std::size_t k = 0; k < read["strain"].size(); ++k) read["strain"][k] += kCompliance * read["stress_pa"][k];
+  for (std::size_t k = 0; k < read["strain"].size(); ++k)
+    read["strain"][k] += kCompliance * read["stress_pa"][k];
   const Observation soft = observation(kinds::compression(), "A", read);
   EXPECT_NEAR(value(soft, "unloading_modulus_1_at_40_percent", Level::readings),
               1.0 / (1.0 / kUnloading + kCompliance), 0.005 * kUnloading);
@@ -78,8 +82,8 @@ TEST(Compression, AScaledCurveDiffersByItsFactorAlone) {
   ASSERT_EQ(before.size(), after.size());
   for (std::size_t k = 0; k < before.size(); ++k) {
     const std::string& name = before[k].name;
-    const bool scales =
-        name.starts_with("unloading_modulus") || (name.starts_with("stress_at") && before[k].strain_to > kFloor);
+    const bool scales = name.starts_with("unloading_modulus") ||
+                        (name.starts_with("stress_at") && before[k].strain_to > kFloor);
     EXPECT_NEAR(after[k].compared() - before[k].compared(), scales ? std::log(0.7) : 0.0, 1e-9) << name;
   }
 }
@@ -131,7 +135,8 @@ TEST(Compression, ErrorsOfTheSimulationAreAPositiveDefiniteCovariance) {
   // Beyond failure programs differ by ten times as much.
   std::vector<Feature> falling;
   for (const auto& [strain, stress] : {std::pair(0.01, 1e5), {0.02, 2e5}, {0.03, 1.5e5}, {0.04, 1.6e5}})
-    falling.push_back({"A", "stress_at_" + std::to_string(strain), Scale::aggregate, true, stress, strain, strain});
+    falling.push_back(
+        {"A", "stress_at_" + std::to_string(strain), Scale::aggregate, true, stress, strain, strain});
   const Eigen::MatrixXd failed = kinds::compression().model_error(falling);
   EXPECT_LT(std::sqrt(failed(0, 0)), 0.01);
   EXPECT_GT(std::sqrt(failed(2, 2)), 0.1);

@@ -1,0 +1,343 @@
+#include "dem_core/step/step_kernels.h"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/ranges.h>
+
+#include "base/error.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "dem_core/step/step_kernels.cpp"
+#include "hwy/foreach_target.h"
+//
+#include "hwy/highway.h"
+//
+#include "dem_core/law/pair-inl.h"
+#include "dem_core/step/rows-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pendular {
+namespace HWY_NAMESPACE {
+namespace {
+
+using Floats = hn::Rebind<float, Lanes::Tag>;
+
+HWY_INLINE Lanes load(const double* from) {
+  return {hn::Load(Lanes::Tag(), from)};
+}
+HWY_INLINE Lanes load(const float* from) {
+  return {hn::PromoteTo(Lanes::Tag(), hn::Load(Floats(), from))};
+}
+HWY_INLINE void store(Lanes value, double* to) {
+  hn::Store(value.v, Lanes::Tag(), to);
+}
+HWY_INLINE void store(Lanes value, float* to) {
+  hn::Store(hn::DemoteTo(Floats(), value.v), Floats(), to);
+}
+
+/// Blocks taken at a time, in three loops that leave each other a number of each pair in the first-level
+/// cache: how pairs move, what they do, and to which beads. Several pairs of such a short loop are under way
+/// in a core at once, where one pair's whole way is a chain of operations that wait for each other.
+constexpr std::size_t kBatch = 4;
+
+struct Batch {
+  using Column = double[kBatch * kBlock];
+  struct Columns3 {
+    HWY_ALIGN Column x, y, z;
+  };
+  Columns3 n, sliding;
+  HWY_ALIGN Column gap, closing, twist;
+  HWY_ALIGN Column arm_i, arm_j;  ///< minus the arms: half gap and radius
+  Columns3 spin, turning;         ///< where the law has bending
+  Columns3 force, couple, moment;
+};
+
+HWY_INLINE void store(const Triple<Lanes>& t, Batch::Columns3& to, std::size_t at) {
+  const Lanes::Tag tag;
+  hn::Store(t.x.v, tag, to.x + at), hn::Store(t.y.v, tag, to.y + at), hn::Store(t.z.v, tag, to.z + at);
+}
+HWY_INLINE Triple<Lanes> load(const Batch::Columns3& from, std::size_t at) {
+  const Lanes::Tag tag;
+  return {{hn::Load(tag, from.x + at)}, {hn::Load(tag, from.y + at)}, {hn::Load(tag, from.z + at)}};
+}
+
+/// Puts into the batch, from `at` on, how the pairs of a block move, from `lane` on.
+template <bool bending>
+HWY_INLINE void read_motion(const PairBlock& block, std::size_t lane, const BeadTable& beads,
+                            const LawNumbers<Lanes>& law, Batch& batch, std::size_t at) {
+  const double* HWY_RESTRICT bead = beads.motion.data();
+  const double* HWY_RESTRICT spin = beads.spin.data();
+  const std::uint32_t *i = block.i + lane, *j = block.j + lane;
+#if HWY_MAX_BYTES == 64
+  Columns apart, velocity;
+  differences(bead, i, j, apart, velocity);
+#else
+  const Columns apart = differences(bead, i, j), velocity = differences(bead + 4, i, j);
+#endif
+  const Columns spin_i = columns_of(spin, i), spin_j = columns_of(spin, j);
+  const Lanes difference = apart.fourth;
+  PairMotion<Lanes> motion;
+  motion.apart = apart.xyz;
+  motion.velocity = velocity.xyz;
+  motion.rolling = mul_add(spin_i.fourth, spin_i.xyz, spin_j.fourth * spin_j.xyz);
+  motion.spin = spin_i.xyz + spin_j.xyz;
+  motion.radii = spin_i.fourth + spin_j.fourth;
+
+  const PairApproach<Lanes> seen = approach(motion, law);
+  store(seen.n, batch.n, at), store(seen.sliding, batch.sliding, at);
+  store(seen.gap, batch.gap + at), store(seen.closing, batch.closing + at),
+      store(seen.twist, batch.twist + at);
+  const Lanes half = same(0.5, difference);
+  const Lanes mean = neg_mul_add(half, motion.radii, -(half * seen.gap));
+  store(neg_mul_add(half, difference, mean), batch.arm_i + at);
+  store(mul_add(half, difference, mean), batch.arm_j + at);
+  if (bending) store(motion.spin, batch.spin, at), store(spin_i.xyz - spin_j.xyz, batch.turning, at);
+}
+
+/// Adds what pairs do to the sums of their beads, one pair after the other.
+template <bool bending>
+HWY_INLINE void add_to_beads(const PairBlock& block, std::size_t lane, const Batch& batch, std::size_t at,
+                             double* sums) {
+  const Triple<Lanes> force = load(batch.force, at), couple = load(batch.couple, at);
+  Triple<Lanes> torque_i = load(batch.arm_i + at) * couple, torque_j = load(batch.arm_j + at) * couple;
+  if (bending) {
+    const Triple<Lanes> moment = load(batch.moment, at);
+    torque_i = torque_i + moment, torque_j = torque_j - moment;
+  }
+  const std::uint32_t *i = block.sum_i + lane, *j = block.sum_j + lane;
+#if HWY_MAX_BYTES == 64
+  const Lanes::Tag tag;
+  LanesOf on_i[kLanes], on_j[kLanes];
+  to_rows(force, torque_i, on_i);
+  to_rows(-force, torque_j, on_j);
+  for (std::size_t p = 0; p < kLanes; ++p) {
+    hn::Store(hn::Add(hn::Load(tag, sums + i[p]), on_i[p]), tag, sums + i[p]);
+    hn::Store(hn::Add(hn::Load(tag, sums + j[p]), on_j[p]), tag, sums + j[p]);
+  }
+#else
+  const Row row;
+  LanesOf on_i[kLanes][kParts], turning_i[kLanes][kParts], turning_j[kLanes][kParts];
+  to_rows(force, on_i);
+  to_rows(torque_i, turning_i);
+  to_rows(torque_j, turning_j);
+  for (std::size_t p = 0; p < kLanes; ++p)
+    for (std::size_t part = 0, c = 0; part < kParts; ++part, c += kLanes) {
+      double *a = sums + i[p] + c, *b = sums + j[p] + c;
+      hn::Store(hn::Add(hn::Load(row, a), on_i[p][part]), row, a);
+      hn::Store(hn::Add(hn::Load(row, a + 4), turning_i[p][part]), row, a + 4);
+      hn::Store(hn::Sub(hn::Load(row, b), on_i[p][part]), row, b);
+      hn::Store(hn::Add(hn::Load(row, b + 4), turning_j[p][part]), row, b + 4);
+    }
+#endif
+}
+
+/// Appends the pairs whose lane is set; `first` is the number of the first lane's pair.
+void note_breaks(LaneMask breaking, std::size_t first, Chunk& chunk) {
+  HWY_ALIGN double flags[kBlock];
+  const Lanes::Tag tag;
+  hn::Store(hn::IfThenElseZero(breaking.m, hn::Set(tag, 1.0)), tag, flags);
+  for (std::size_t lane = 0; lane < hn::Lanes(tag); ++lane)
+    if (flags[lane] != 0.0) chunk.breaking.push_back(static_cast<std::uint32_t>(first + lane));
+}
+
+/// What all pairs of a chunk are given and what they sum up, in registers.
+struct Constants {
+  LawNumbers<Lanes> law;
+  LawParts parts;
+};
+struct Losses {
+  Lanes damped, slipped;
+};
+
+/// Advances the pairs of a block from `lane` on, whose columns of the batch begin at `at`. Returns which
+/// bonds break.
+template <bool may_touch, bool bending>
+HWY_INLINE LaneMask advance_lanes(PairBlock& block, ContactBlock* contact, BendBlock* bend, std::size_t lane,
+                                  const Constants& given, Batch& batch, std::size_t at, Losses& losses) {
+  const Lanes zero = {hn::Zero(Lanes::Tag())};
+  const PairApproach<Lanes> seen = {load(batch.n, at), load(batch.sliding, at), load(batch.gap + at),
+                                    load(batch.closing + at), load(batch.twist + at)};
+  PairMotion<Lanes> motion;
+  if (bending) motion.spin = load(batch.spin, at), motion.turning = load(batch.turning, at);
+
+  PairData<Lanes> data;
+  PairMemory<Lanes> memory;
+  data.rest = load(block.rest + lane);
+  data.kn = load(block.kn + lane), data.kt = load(block.kt + lane);
+  data.break_limit = load(block.break_limit + lane);
+  memory.closing = load(block.closing + lane);
+  memory.bond_slip = {load(block.slip_x + lane), load(block.slip_y + lane), load(block.slip_z + lane)};
+  data.touch = may_touch ? load(contact->touch + lane) : same(-1e300, zero);
+  if (may_touch)
+    memory.contact_slip = {load(contact->slip_x + lane), load(contact->slip_y + lane),
+                           load(contact->slip_z + lane)};
+  if (bending) {
+    data.k_bend = load(bend->k_bend + lane), data.k_twist = load(bend->k_twist + lane);
+    memory.turn = {load(bend->turn_x + lane), load(bend->turn_y + lane), load(bend->turn_z + lane)};
+  }
+
+  LawParts parts = given.parts;
+  parts.bending = bending;
+  const PairAction<Lanes> action = advance_pair<may_touch>(seen, motion, data, given.law, parts, memory);
+
+  const Triple<Lanes>& slip = memory.bond_slip;
+  store(slip.x, block.slip_x + lane), store(slip.y, block.slip_y + lane), store(slip.z, block.slip_z + lane);
+  store(memory.closing, block.closing + lane);
+  if (may_touch) {
+    const Triple<Lanes>& sliding = memory.contact_slip;
+    store(sliding.x, contact->slip_x + lane), store(sliding.y, contact->slip_y + lane);
+    store(sliding.z, contact->slip_z + lane);
+  }
+  if (bending) {
+    const Triple<Lanes>& turn = memory.turn;
+    store(turn.x, bend->turn_x + lane), store(turn.y, bend->turn_y + lane),
+        store(turn.z, bend->turn_z + lane);
+  }
+  store(action.force, batch.force, at), store(action.couple, batch.couple, at);
+  if (bending) store(action.moment, batch.moment, at);
+  losses.damped = losses.damped + action.damped;
+  losses.slipped = losses.slipped + action.slipped;
+  return both(data.kn > zero, breaks(seen.gap, memory.bond_slip, data));
+}
+
+template <bool may_touch, bool bending>
+void advance(PairTable& pairs, BeadTable& beads, std::size_t first, std::size_t last,
+             const LawNumbers<double>& law, LawParts parts, Chunk& chunk) {
+  const Lanes::Tag tag;
+  const Lanes zero = {hn::Zero(tag)};
+  const Constants given = {
+      {same(law.k_glass, zero), same(law.kt_glass, zero), same(law.friction, zero), same(law.damping, zero),
+       same(law.dt, zero), same(law.half_dt, zero), same(law.half_damping_dt, zero)},
+      parts};
+  Losses losses = {zero, zero};
+  PairBlock* const blocks = pairs.blocks.data();
+  ContactBlock* const contacts = pairs.contacts.data() + chunk.first_contact - chunk.touchable;
+  BendBlock* const bends = pairs.bends.data();
+  Batch batch;
+  for (std::size_t begin = first; begin < last; begin += kBatch) {
+    const std::size_t end = std::min(begin + kBatch, last);
+    const auto for_lanes = [&](const auto& body) {
+      for (std::size_t b = begin, at = 0; b < end; ++b)
+        for (std::size_t lane = 0; lane < kBlock; lane += kLanes, at += kLanes) body(b, lane, at);
+    };
+    for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
+      read_motion<bending>(blocks[b], lane, beads, given.law, batch, at);
+    });
+    for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
+      const LaneMask breaking =
+          advance_lanes<may_touch, bending>(blocks[b], may_touch ? contacts + b : nullptr,
+                                            bending ? bends + b : nullptr, lane, given, batch, at, losses);
+      if (any(breaking)) note_breaks(breaking, kBlock * b + lane, chunk);
+    });
+    for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
+      add_to_beads<bending>(blocks[b], lane, batch, at, beads.sums.data());
+    });
+  }
+  chunk.damped += hn::GetLane(hn::SumOfLanes(tag, losses.damped.v));
+  chunk.slipped += hn::GetLane(hn::SumOfLanes(tag, losses.slipped.v));
+}
+
+template <bool bending>
+void advance(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<double>& law,
+             LawParts parts) {
+  advance<false, bending>(pairs, beads, chunk.first_block, chunk.touchable, law, parts, chunk);
+  advance<true, bending>(pairs, beads, chunk.touchable, chunk.last_block, law, parts, chunk);
+}
+
+void AdvancePairs(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<double>& law,
+                  LawParts parts) {
+  if (parts.bending)
+    advance<true>(pairs, beads, chunk, law, parts);
+  else
+    advance<false>(pairs, beads, chunk, law, parts);
+}
+
+void collect(BeadTable& beads, const Chunk& chunk) {
+  const Row row;
+  double* HWY_RESTRICT sums = beads.sums.data();
+  for (const auto& incoming : chunk.incoming)
+    for (std::size_t c = 0; c < kBeadRow; c += hn::Lanes(row)) {
+      double* HWY_RESTRICT from = sums + kBeadRow * static_cast<std::size_t>(incoming.from) + c;
+      double* HWY_RESTRICT to = sums + kBeadRow * static_cast<std::size_t>(incoming.to) + c;
+      hn::Store(hn::Add(hn::Load(row, to), hn::Load(row, from)), row, to);
+      hn::Store(hn::Zero(row), row, from);
+    }
+}
+
+void MoveBeads(BeadTable& beads, Chunk& chunk, double dt) {
+  collect(beads, chunk);
+  const Row row;
+  const hn::Rebind<float, Row> listed_row;
+  HWY_ALIGN float farthest[4] = {0.0F, 0.0F, 0.0F, 0.0F};
+  const auto step = hn::Set(row, dt);
+  for (std::size_t c = 0; c < 4; c += hn::Lanes(row)) {
+    // The fourth numbers of a row stay as they are: the sums' are zero, and the position's is kept.
+    HWY_ALIGN constexpr double moves[4] = {1.0, 1.0, 1.0, 0.0};
+    const auto moving = hn::Mul(step, hn::Load(row, moves + c));
+    auto reach = hn::Zero(listed_row);
+    for (std::size_t k = chunk.first_bead; k < chunk.last_bead; ++k) {
+      double* HWY_RESTRICT bead = beads.motion.data() + kBeadRow * k;
+      double* HWY_RESTRICT turning = beads.spin.data() + kBeadRow * k;
+      double* HWY_RESTRICT sums = beads.sums.data() + kBeadRow * k;
+      const auto velocity =
+          hn::MulAdd(hn::Set(row, bead[7]), hn::Load(row, sums + c), hn::Load(row, bead + 4 + c));
+      const auto spin =
+          hn::MulAdd(hn::Set(row, turning[4]), hn::Load(row, sums + 4 + c), hn::Load(row, turning + c));
+      const auto position = hn::MulAdd(moving, velocity, hn::Load(row, bead + c));
+      hn::Store(position, row, bead + c);
+      hn::Store(velocity, row, bead + 4 + c);
+      hn::Store(spin, row, turning + c);
+      hn::Store(hn::Zero(row), row, sums + c);
+      hn::Store(hn::Zero(row), row, sums + 4 + c);
+      const float* HWY_RESTRICT listed = beads.listed_rows.data() + 4 * k;
+      const auto moved = hn::Sub(hn::DemoteTo(listed_row, position), hn::Load(listed_row, listed + c));
+      reach = hn::Max(reach, hn::Abs(hn::Mul(moved, hn::Set(listed_row, listed[3]))));
+    }
+    hn::Store(reach, listed_row, farthest + c);
+  }
+  for (int axis = 0; axis < 3; ++axis) chunk.farthest[axis] = farthest[axis];
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace pendular
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pendular {
+namespace {
+HWY_EXPORT(AdvancePairs);
+HWY_EXPORT(MoveBeads);
+}  // namespace
+
+void advance_pairs(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<double>& law,
+                   LawParts parts) {
+  HWY_DYNAMIC_DISPATCH(AdvancePairs)(pairs, beads, chunk, law, parts);
+}
+
+void move_beads(BeadTable& beads, Chunk& chunk, double dt) {
+  HWY_DYNAMIC_DISPATCH(MoveBeads)(beads, chunk, dt);
+}
+
+std::vector<std::string> instruction_sets() {
+  hwy::SetSupportedTargetsForTest(0);
+  std::vector<std::string> names;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+    names.push_back(hwy::TargetName(target));
+  return names;
+}
+
+void use_instruction_set(const std::string& name) {
+  const auto names = instruction_sets();
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+    if (name == hwy::TargetName(target)) {
+      hwy::SetSupportedTargetsForTest(target);
+      hwy::GetChosenTarget().Update(target);
+      return;
+    }
+  bad_input("instruction set \"{}\": expected one of {}", name, fmt::join(names, ", "));
+}
+
+}  // namespace pendular
+#endif

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "dem_core/step/aligned_vector.h"
+
+namespace pendular {
+
+/// Pairs of one block: no register holds more.
+constexpr std::size_t kBlock = 8;
+
+/// One number of each pair of a block, side by side as a register wants them.
+template <typename T>
+using BlockOf = T[kBlock];
+
+/// Eight pairs. Where a group has fewer left, pairs that never act fill the block up.
+struct alignas(64) PairBlock {
+  BlockOf<std::uint32_t> i, j;          ///< where their beads' rows begin in BeadTable::motion and spin
+  BlockOf<std::uint32_t> sum_i, sum_j;  ///< where the rows they add to begin in BeadTable::sums
+  BlockOf<float> kn, kt, break_limit, closing;
+  BlockOf<double> rest, slip_x, slip_y, slip_z;
+};
+
+/// What the glass of eight pairs adds.
+struct alignas(64) ContactBlock {
+  BlockOf<double> touch, slip_x, slip_y, slip_z;
+};
+
+/// What the bending of eight bonds adds.
+struct alignas(64) BendBlock {
+  BlockOf<double> k_bend, k_twist, turn_x, turn_y, turn_z;
+};
+
+struct PairTable {
+  AlignedVector<PairBlock> blocks;
+  AlignedVector<ContactBlock> contacts;  ///< of the chunks' touchable blocks, one after the other
+  AlignedVector<BendBlock> bends;        ///< of all blocks, where the law has bending
+};
+
+/// Numbers in a row of a bead's motion, spin or sums: a cache line.
+constexpr std::uint32_t kBeadRow = 8;
+
+/// Beads as the kernels read them.
+struct BeadTable {
+  std::size_t size = 0;
+  AlignedVector<double> motion;      ///< x y z R | vx vy vz dt/m
+  AlignedVector<double> spin;        ///< ωx ωy ωz R | dt/I and three of no meaning
+  AlignedVector<float> listed_rows;  ///< x y z when the pairs were listed, 1/margin
+  /// Force and 0 | torque and 0: a row per bead, which its own chunk adds to, then those that other chunks
+  /// add to.
+  AlignedVector<double> sums;
+};
+
+/// Beads that are near in space, and the pairs that they own: a pair is owned by the chunk of the first of
+/// its two rows, so a chunk reads and adds to its own beads and those of some later chunks only: its targets.
+struct Chunk {
+  std::size_t first_bead = 0, last_bead = 0;
+  std::size_t first_block = 0;                ///< bonds whose glass cannot touch before the next listing
+  std::size_t touchable = 0, last_block = 0;  ///< the rest
+  std::size_t first_contact = 0;              ///< contact block of the first touchable block
+  /// Sums that earlier chunks have made for beads of this one.
+  struct Incoming {
+    std::uint32_t from, to;
+  };
+  std::vector<Incoming> incoming;
+  /// A bead that platens may touch before the next listing, and which.
+  struct NearPlaten {
+    std::size_t row;
+    bool bottom, top;
+  };
+  std::vector<std::size_t> targets;  ///< chunks whose beads this one adds to; itself one of them
+  int sources = 0;                   ///< number of chunks that have this one as a target
+  std::vector<NearPlaten> near_platen;
+
+  // What the chunk adds to the sums over the specimen in one step.
+  double damped = 0.0, slipped = 0.0, bottom = 0.0, top = 0.0;
+  float farthest[3] = {0.0F, 0.0F,
+                       0.0F};           ///< along each axis, largest displacement over margin since listing
+  std::vector<std::uint32_t> breaking;  ///< pairs whose bond breaks: block × kBlock + place in it
+};
+
+}  // namespace pendular

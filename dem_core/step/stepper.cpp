@@ -1,0 +1,405 @@
+#include "dem_core/step/stepper.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "dem_core/step/flush_denormals.h"
+#include "dem_core/step/step_kernels.h"
+
+namespace pendular {
+namespace {
+
+constexpr std::size_t kBeadsPerChunk = 256;
+
+// Pairs are listed anew where a bead has used this share of its margin: displacements are floats.
+constexpr float kOfMargin = 0.999F;
+
+std::size_t filled_up(std::size_t size) {
+  return (size + kBlock - 1) / kBlock * kBlock;
+}
+
+/// Every third bit of the result, from bit 0 up, is one of `cell`.
+std::uint64_t spread_bits(std::uint64_t cell) {
+  std::uint64_t spread = 0;
+  for (int bit = 0; bit < 21; ++bit) spread |= (cell >> bit & 1) << (3 * bit);
+  return spread;
+}
+
+/// Place on a curve that keeps neighbours in space close (Morton's order of cells).
+std::uint64_t place_on_curve(const Vec3& from_corner, double cell) {
+  std::uint64_t place = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    place |= spread_bits(static_cast<std::uint64_t>(from_corner[axis] / cell)) << axis;
+  return place;
+}
+
+/// Appends full blocks of pairs so that pairs that follow each other in their order, and share a bead, are in
+/// blocks that follow each other: additions to one sum wait for each other. Pairs stay near their place.
+void append_apart(const std::vector<std::int64_t>& ordered, std::vector<std::int64_t>& to) {
+  constexpr std::size_t kSpread = 16;
+  for (std::size_t first = 0; first < ordered.size(); first += kSpread * kBlock) {
+    const std::size_t blocks = std::min(kSpread, (ordered.size() - first) / kBlock);
+    for (std::size_t b = 0; b < blocks; ++b)
+      for (std::size_t lane = 0; lane < kBlock; ++lane) to.push_back(ordered[first + lane * blocks + b]);
+  }
+}
+
+void put(double* row, const Vec3& v) {
+  for (int axis = 0; axis < 3; ++axis) row[axis] = v[axis];
+}
+Vec3 get(const double* row) {
+  return {row[0], row[1], row[2]};
+}
+
+}  // namespace
+
+Stepper::Stepper(Simulation& simulation) : simulation_(simulation) {
+  load();
+}
+
+void Stepper::load() {
+  order_beads();
+  load_beads();
+  cut_chunks();
+  load_pairs();
+  share_sums();
+  find_beads_near_platens();
+  awaited_ = std::vector<std::atomic<int>>(chunks_.size());
+}
+
+void Stepper::order_beads() {
+  const auto& at = simulation_.listing.at;
+  Vec3 corner = at.front();
+  for (const auto& x : at) corner = corner.cwiseMin(x);
+  const double cell = 2.0 * simulation_.beads.radius.front();
+  std::vector<std::uint64_t> place;
+  for (const auto& x : at) place.push_back(place_on_curve(x - corner, cell));
+  bead_of_.resize(at.size());
+  std::iota(bead_of_.begin(), bead_of_.end(), 0);
+  std::stable_sort(bead_of_.begin(), bead_of_.end(),
+                   [&](std::size_t a, std::size_t b) { return place[a] < place[b]; });
+  row_of_.resize(at.size());
+  for (std::size_t row = 0; row < at.size(); ++row) row_of_[bead_of_[row]] = static_cast<std::int32_t>(row);
+}
+
+void Stepper::load_beads() {
+  const auto& beads = simulation_.beads;
+  const std::size_t size = beads_.size = beads.size();
+  // Two more rows, apart by one metre, are the beads of the pairs that fill up blocks.
+  beads_.motion.assign(kBeadRow * (size + 2), 0.0);
+  beads_.motion[kBeadRow * (size + 1)] = 1.0;
+  beads_.spin.assign(kBeadRow * (size + 2), 0.0);
+  beads_.listed_rows.assign(4 * size, 0.0F);
+  for (std::size_t row = 0; row < size; ++row) {
+    const std::size_t k = bead_of_[row];
+    double* bead = &beads_.motion[kBeadRow * row];
+    double* spin = &beads_.spin[kBeadRow * row];
+    put(bead, beads.position[k]);
+    put(bead + 4, beads.velocity[k]);
+    put(spin, beads.spin[k]);
+    bead[3] = spin[3] = beads.radius[k];
+    bead[7] = simulation_.dt / beads.mass[k];
+    spin[4] = simulation_.dt / beads.inertia[k];
+    float* listed = &beads_.listed_rows[4 * row];
+    for (int axis = 0; axis < 3; ++axis) listed[axis] = static_cast<float>(simulation_.listing.at[k][axis]);
+    listed[3] = static_cast<float>(1.0 / simulation_.listing.margin[k]);
+  }
+}
+
+/// Cuts the rows of beads into chunks and gives each pair to the chunk of its first row.
+void Stepper::cut_chunks() {
+  const auto& pairs = simulation_.pairs;
+  const auto& [at, margin, bottom_at, top_at, platen_margin] = simulation_.listing;
+  const auto& radius = simulation_.beads.radius;
+  chunks_.assign((beads_.size + kBeadsPerChunk - 1) / kBeadsPerChunk, {});
+  std::vector<std::array<std::vector<std::int64_t>, 2>> owned(chunks_.size());
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const int i = pairs[p].i, j = pairs[p].j;
+    const double listed_gap = (at[i] - at[j]).norm() - radius[i] - radius[j];
+    // With one spring the contact's part of the law is in every pair.
+    const bool touchable =
+        listed_gap - pairs[p].properties.touch <= margin[i] + margin[j] || simulation_.law.one_spring;
+    owned[std::min(row_of_[i], row_of_[j]) / kBeadsPerChunk][touchable].push_back(
+        static_cast<std::int64_t>(p));
+  }
+  const auto by_row = [&](std::int64_t a, std::int64_t b) {
+    return std::pair(row_of_[pairs[a].i], row_of_[pairs[a].j]) <
+           std::pair(row_of_[pairs[b].i], row_of_[pairs[b].j]);
+  };
+  pair_of_.clear();
+  const auto append = [&](std::vector<std::int64_t>& group) {
+    std::sort(group.begin(), group.end(), by_row);
+    group.resize(filled_up(group.size()), -1);
+    append_apart(group, pair_of_);
+    return pair_of_.size() / kBlock;
+  };
+  std::size_t contacts = 0;
+  for (std::size_t c = 0; c < chunks_.size(); ++c) {
+    Chunk& chunk = chunks_[c];
+    chunk.first_bead = c * kBeadsPerChunk;
+    chunk.last_bead = std::min(beads_.size, chunk.first_bead + kBeadsPerChunk);
+    chunk.first_block = pair_of_.size() / kBlock;
+    chunk.touchable = append(owned[c][0]);
+    chunk.last_block = append(owned[c][1]);
+    chunk.first_contact = contacts;
+    contacts += chunk.last_block - chunk.touchable;
+  }
+}
+
+void Stepper::load_pairs() {
+  const auto ghost = static_cast<std::uint32_t>(kBeadRow * beads_.size);
+  PairBlock empty{};
+  std::fill_n(empty.i, kBlock, ghost);
+  std::fill_n(empty.j, kBlock, ghost + kBeadRow);
+  pairs_.blocks.assign(pair_of_.size() / kBlock, empty);
+  pairs_.bends.assign(simulation_.law.bending ? pairs_.blocks.size() : 0, BendBlock{});
+  const Chunk& last = chunks_.back();
+  pairs_.contacts.assign(last.first_contact + last.last_block - last.touchable, ContactBlock{});
+  for (const auto& chunk : chunks_)
+    for (std::size_t p = chunk.first_block * kBlock; p < chunk.last_block * kBlock; ++p)
+      if (pair_of_[p] >= 0) load_pair(chunk, p);
+}
+
+/// The contact block of a pair, or none.
+ContactBlock* Stepper::contact_of(const Chunk& chunk, std::size_t p) {
+  const std::size_t b = p / kBlock;
+  return b < chunk.touchable ? nullptr : &pairs_.contacts[chunk.first_contact + b - chunk.touchable];
+}
+
+void Stepper::load_pair(const Chunk& chunk, std::size_t p) {
+  const Pair& pair = simulation_.pairs[pair_of_[p]];
+  const PairProperties& own = pair.properties;
+  const PairHistory& history = pair.history;
+  const std::size_t at = p % kBlock;
+  PairBlock& block = pairs_.blocks[p / kBlock];
+  block.i[at] = kBeadRow * row_of_[pair.i], block.j[at] = kBeadRow * row_of_[pair.j];
+  block.rest[at] = own.rest;
+  block.kn[at] = static_cast<float>(own.kn), block.kt[at] = static_cast<float>(own.kt);
+  block.break_limit[at] = static_cast<float>(own.break_limit);
+  block.closing[at] = static_cast<float>(history.closing);
+  block.slip_x[at] = history.bond_slip.x, block.slip_y[at] = history.bond_slip.y;
+  block.slip_z[at] = history.bond_slip.z;
+  if (ContactBlock* contact = contact_of(chunk, p)) {
+    contact->touch[at] = own.touch;
+    contact->slip_x[at] = history.contact_slip.x, contact->slip_y[at] = history.contact_slip.y;
+    contact->slip_z[at] = history.contact_slip.z;
+  }
+  if (simulation_.law.bending) {
+    BendBlock& bend = pairs_.bends[p / kBlock];
+    bend.k_bend[at] = own.k_bend, bend.k_twist[at] = own.k_twist;
+    bend.turn_x[at] = history.turn.x, bend.turn_y[at] = history.turn.y, bend.turn_z[at] = history.turn.z;
+  }
+}
+
+void Stepper::store_pair(const Chunk& chunk, std::size_t p) {
+  PairHistory& history = simulation_.pairs[pair_of_[p]].history;
+  const std::size_t at = p % kBlock;
+  const PairBlock& block = pairs_.blocks[p / kBlock];
+  history.bond_slip = {block.slip_x[at], block.slip_y[at], block.slip_z[at]};
+  history.closing = block.closing[at];
+  if (const ContactBlock* contact = contact_of(chunk, p))
+    history.contact_slip = {contact->slip_x[at], contact->slip_y[at], contact->slip_z[at]};
+  if (simulation_.law.bending) {
+    const BendBlock& bend = pairs_.bends[p / kBlock];
+    history.turn = {bend.turn_x[at], bend.turn_y[at], bend.turn_z[at]};
+  }
+}
+
+/// A chunk adds to the sums of its own beads, and to sums of its own making for those of others.
+void Stepper::share_sums() {
+  std::uint32_t next = static_cast<std::uint32_t>(beads_.size);
+  for (std::size_t c = 0; c < chunks_.size(); ++c) {
+    std::map<std::uint32_t, std::uint32_t> sum_of;
+    std::set<std::size_t> targets = {c};
+    const auto place = [&](std::uint32_t row) {
+      const std::size_t owner = row / kBeadsPerChunk;
+      if (owner == c) return row;
+      const auto [entry, is_new] = sum_of.try_emplace(row, next);
+      if (is_new) {
+        chunks_[owner].incoming.push_back({next++, row});
+        targets.insert(owner);
+      }
+      return entry->second;
+    };
+    const std::uint32_t nowhere = next++;  // for the pairs that fill up
+    for (std::size_t p = chunks_[c].first_block * kBlock; p < chunks_[c].last_block * kBlock; ++p) {
+      const bool fills_up = pair_of_[p] < 0;
+      PairBlock& block = pairs_.blocks[p / kBlock];
+      const std::size_t at = p % kBlock;
+      block.sum_i[at] = kBeadRow * (fills_up ? nowhere : place(block.i[at] / kBeadRow));
+      block.sum_j[at] = kBeadRow * (fills_up ? nowhere : place(block.j[at] / kBeadRow));
+    }
+    chunks_[c].targets.assign(targets.begin(), targets.end());
+    for (const std::size_t target : targets) ++chunks_[target].sources;
+  }
+  beads_.sums.assign(kBeadRow * static_cast<std::size_t>(next), 0.0);
+}
+
+void Stepper::find_beads_near_platens() {
+  const Listing& listing = simulation_.listing;
+  for (auto& chunk : chunks_)
+    for (std::size_t row = chunk.first_bead; row < chunk.last_bead; ++row) {
+      const std::size_t k = bead_of_[row];
+      const double z = beads_.listed_rows[4 * row + 2];
+      const double reach = beads_.motion[kBeadRow * row + 3] + listing.margin[k] + listing.platen_margin;
+      const bool bottom = z - reach + simulation_.bottom.relief[k] <= listing.bottom_at;
+      const bool top = z + reach - simulation_.top.relief[k] >= listing.top_at;
+      if (bottom || top) chunk.near_platen.push_back({row, bottom, top});
+    }
+}
+
+BeadMotion Stepper::motion(std::size_t row) const {
+  const double* bead = &beads_.motion[kBeadRow * row];
+  return {get(bead), get(bead + 4), get(&beads_.spin[kBeadRow * row]), bead[3]};
+}
+
+void Stepper::store() {
+  auto& beads = simulation_.beads;
+  for (std::size_t row = 0; row < beads_.size; ++row) {
+    const std::size_t k = bead_of_[row];
+    const BeadMotion bead = motion(row);
+    beads.position[k] = bead.position;
+    beads.velocity[k] = bead.velocity;
+    beads.spin[k] = bead.spin;
+  }
+  for (const auto& chunk : chunks_)
+    for (std::size_t p = chunk.first_block * kBlock; p < chunk.last_block * kBlock; ++p)
+      if (pair_of_[p] >= 0) store_pair(chunk, p);
+}
+
+void Stepper::step() {
+  for (std::size_t c = 0; c < chunks_.size(); ++c)
+    awaited_[c].store(chunks_[c].sources, std::memory_order_relaxed);
+  for_each(chunks_.size(), same_threads_, [&](std::size_t c) { advance_chunk(c); });
+  add_up();
+  break_bonds();
+  advance_platens(simulation_);
+  if (!listing_due()) return;
+  store();
+  list_pairs(simulation_);
+  load();
+}
+
+double Stepper::kinetic_energy() const {
+  double energy = 0.0;
+  for (std::size_t row = 0; row < beads_.size; ++row) {
+    const double *bead = &beads_.motion[kBeadRow * row], *spin = &beads_.spin[kBeadRow * row];
+    energy += 0.5 * simulation_.dt * get(bead + 4).squaredNorm() / bead[7];
+    energy += 0.5 * simulation_.dt * get(spin).squaredNorm() / spin[4];
+  }
+  return energy;
+}
+
+// Positions are one step ahead of what pairs remember: a velocity that is taken or given takes or gives the
+// displacement of one step with it. Of a step in which the platen sets out or stops it moves half.
+void Stepper::halt() {
+  Platen& platen = simulation_.bottom;
+  simulation_.work.platen -= 0.5 * simulation_.dt * platen.force * platen.velocity;
+  simulation_.work.halted += kinetic_energy();
+  platen.z -= simulation_.dt * platen.velocity;
+  platen.velocity = 0.0;
+  for (std::size_t row = 0; row < beads_.size; ++row) {
+    double* bead = &beads_.motion[kBeadRow * row];
+    put(bead, get(bead) - simulation_.dt * get(bead + 4));
+    put(bead + 4, Vec3::Zero());
+    put(&beads_.spin[kBeadRow * row], Vec3::Zero());
+  }
+}
+
+void Stepper::set_in_motion(double speed, const std::function<Vec3(const Vec3&)>& velocity) {
+  Platen& platen = simulation_.bottom;
+  platen.velocity = speed;
+  simulation_.work.platen += 0.5 * simulation_.dt * platen.force * speed;
+  platen.z += simulation_.dt * speed;
+  for (std::size_t row = 0; row < beads_.size; ++row) {
+    double* bead = &beads_.motion[kBeadRow * row];
+    const Vec3 v = velocity(get(bead));
+    put(bead + 4, v);
+    put(bead, get(bead) + simulation_.dt * v);
+  }
+  simulation_.work.halted -= kinetic_energy();
+}
+
+/// A chunk's pairs read and add to its own beads and those of its targets, so a chunk's beads may move when
+/// all that have it as a target are done.
+void Stepper::advance_chunk(std::size_t c) {
+  const FlushDenormals here;
+  Chunk& chunk = chunks_[c];
+  chunk.damped = chunk.slipped = chunk.bottom = chunk.top = 0.0;
+  chunk.breaking.clear();
+  advance_pairs(pairs_, beads_, chunk, numbers(simulation_.law, simulation_.dt), parts(simulation_.law));
+  press_platens(chunk);
+  for (const std::size_t target : chunk.targets)
+    if (awaited_[target].fetch_sub(1, std::memory_order_acq_rel) == 1)
+      move_beads(beads_, chunks_[target], simulation_.dt);
+}
+
+/// Makes the simulation's pair true, and has it changed there.
+template <typename Change>
+void Stepper::change_pair(const Chunk& chunk, std::size_t p, const Change& change) {
+  Pair& pair = simulation_.pairs[pair_of_[p]];
+  for (int bead : {pair.i, pair.j}) simulation_.beads.position[bead] = motion(row_of_[bead]).position;
+  store_pair(chunk, p);
+  change(simulation_, pair);
+  load_pair(chunk, p);
+}
+
+/// Breaks are taken when all beads have moved, in the order of the table.
+void Stepper::break_bonds() {
+  for (const auto& chunk : chunks_)
+    for (const std::uint32_t p : chunk.breaking)
+      change_pair(chunk, p, [](Simulation& s, Pair& pair) { break_bond(s, pair); });
+}
+
+void Stepper::change_bonds(const BondEvolution& evolution, double elapsed) {
+  for (const auto& chunk : chunks_)
+    for (std::size_t p = chunk.first_block * kBlock; p < chunk.last_block * kBlock; ++p) {
+      if (pair_of_[p] < 0 || simulation_.pairs[pair_of_[p]].bond < 0) continue;
+      change_pair(chunk, p, [&](Simulation& s, Pair& pair) { change_bond(s, pair, evolution, elapsed); });
+    }
+}
+
+void Stepper::press_platens(Chunk& chunk) {
+  for (const auto& [row, bottom, top] : chunk.near_platen) {
+    const BeadMotion bead = motion(row);
+    const std::size_t k = bead_of_[row];
+    const auto touched = [&](Platen& platen) {
+      return touch_platen(platen, k, bead, simulation_.law, simulation_.dt);
+    };
+    const PlatenForce below = bottom ? touched(simulation_.bottom) : PlatenForce{};
+    const PlatenForce above = top ? touched(simulation_.top) : PlatenForce{};
+    double* sums = &beads_.sums[kBeadRow * row];
+    put(sums, get(sums) + below.force + above.force);
+    put(sums + 4, get(sums + 4) + below.torque + above.torque);
+    chunk.bottom += below.normal;
+    chunk.top += above.normal;
+    chunk.damped += below.damped + above.damped;
+    chunk.slipped += below.slipped + above.slipped;
+  }
+}
+
+void Stepper::add_up() {
+  simulation_.bottom.force = simulation_.top.force = 0.0;
+  for (const auto& chunk : chunks_) {
+    simulation_.bottom.force += chunk.bottom;
+    simulation_.top.force += chunk.top;
+    simulation_.work.damped += chunk.damped;
+    simulation_.work.slipped += chunk.slipped;
+  }
+}
+
+bool Stepper::listing_due() const {
+  float farthest[3] = {0.0F, 0.0F, 0.0F};
+  for (const auto& chunk : chunks_)
+    for (int axis = 0; axis < 3; ++axis) farthest[axis] = std::max(farthest[axis], chunk.farthest[axis]);
+  if (std::hypot(farthest[0], farthest[1], farthest[2]) > kOfMargin) return true;
+  const Listing& listing = simulation_.listing;
+  return std::max(std::fabs(simulation_.bottom.z - listing.bottom_at),
+                  std::fabs(simulation_.top.z - listing.top_at)) > listing.platen_margin;
+}
+
+}  // namespace pendular

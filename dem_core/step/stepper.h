@@ -1,0 +1,80 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <vector>
+
+#include "base/parallel.h"
+#include "dem_core/drive/bond_evolution.h"
+#include "dem_core/simulation.h"
+#include "dem_core/step/step_tables.h"
+
+namespace pendular {
+
+/// Advances a simulation step by step, fast: vector kernels over tables of pairs and beads, which are kept in
+/// the order of their place in space. Chunks of neighbouring beads and their pairs are what threads share. A
+/// chunk advances its pairs and adds their forces to sums of its own; once all chunks that add to a chunk's
+/// beads have done so, the last of them collects these sums in fixed order and moves the beads. One parallel
+/// region per step, and the same sums for any number of threads.
+///
+/// The simulation's platens, sums, events and step count are always true; its beads and pairs are after
+/// store(). The tables are made anew from the simulation alone, so building a stepper anew changes no result.
+class Stepper {
+ public:
+  explicit Stepper(Simulation& simulation);
+
+  /// One time step. Pairs are listed anew where a bead or platen may have moved by its margin.
+  void step();
+
+  /// Lets the standing bonds change by what has become of them in a time (s). Books what that brings as
+  /// Work::given.
+  void change_bonds(const BondEvolution& evolution, double elapsed);
+
+  /// Writes beads and pairs back to the simulation.
+  void store();
+
+  /// Reads the simulation anew, where it was changed from outside.
+  void load();
+
+  /// Of all beads, J.
+  double kinetic_energy() const;
+
+  /// Brings all beads and the moving platen to rest as if the last step had found them so: at the places that
+  /// pairs remember. Books what that takes as Work::halted.
+  void halt();
+
+  /// Gives the moving platen a speed (m/s) and the beads, at rest, the velocity of a field over their places,
+  /// as if the last step had done so. Books what that brings as Work::halted, negative.
+  void set_in_motion(double platen, const std::function<Vec3(const Vec3&)>& velocity);
+
+ private:
+  void order_beads();
+  void load_beads();
+  void cut_chunks();
+  void load_pairs();
+  void load_pair(const Chunk& chunk, std::size_t at);
+  void share_sums();
+  void find_beads_near_platens();
+  void store_pair(const Chunk& chunk, std::size_t at);
+  ContactBlock* contact_of(const Chunk& chunk, std::size_t at);
+  void advance_chunk(std::size_t c);
+  void press_platens(Chunk& chunk);
+  template <typename Change>
+  void change_pair(const Chunk& chunk, std::size_t at, const Change& change);
+  void break_bonds();
+  void add_up();
+  BeadMotion motion(std::size_t row) const;
+  bool listing_due() const;
+
+  Simulation& simulation_;
+  std::vector<std::size_t> bead_of_;   ///< row of the bead table → bead
+  std::vector<std::int32_t> row_of_;   ///< bead → row
+  std::vector<std::int64_t> pair_of_;  ///< place in the pair table → pair, or −1: fills up
+  PairTable pairs_;
+  BeadTable beads_;
+  std::vector<Chunk> chunks_;
+  std::vector<std::atomic<int>> awaited_;  ///< of each chunk: those that have not yet added to its beads
+  SameThreads same_threads_;
+};
+
+}  // namespace pendular

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "diagnosis/bank/runner.h"
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/inference/evidence.h"
+
+namespace pendular::diagnosis {
+
+/// Explanations from this probability on are in question, beside those of the set.
+inline constexpr double kInQuestion = 0.02;
+
+/// What is in question, and how likely each answer is.
+struct Question {
+  std::set<std::string> effects;                ///< the library that is left
+  std::map<std::string, double> probabilities;  ///< of these and of "none", up to a factor
+  std::map<std::string, Magnitude> magnitudes;  ///< where something is known of them
+};
+
+/// The effects that lead or are in the set, by their probabilities and magnitudes a posteriori.
+Question question_after(const Diagnosis& diagnosis);
+
+/// Every effect of the plan alike, or those of `about` alone where it has any, and none.
+Question question_before(const BankPlan& plan, const std::set<std::string>& about);
+
+/// A bank, and what may be done to it.
+struct BankInHand {
+  const Experiment& experiment;
+  const BankPlan& plan;
+  const std::vector<SimulatedTests>& tests;  ///< of every point of the plan
+  const fs::path& beads_folder;
+  const MakeRuns* make_runs;  ///< nullptr: none is made
+  Priors priors;
+  double confidence = 0.95;
+  std::size_t measured = 0;  ///< observations of the experiment that were made; the others are planned
+};
+
+/// Every run of a bank without an effect or with one of some, diagnosed with all that an experiment on the
+/// same specimens has. Empty where the bank lacks runs of it.
+std::vector<Replayed> replayed_with(const BankInHand& bank, const Experiment& experiment,
+                                    const std::set<std::string>& effects);
+
+/// What further measurements are expected to bring: each is added to the experiment as it would be planned,
+/// runs of the bank are taken for the truth, and diagnosed with it (replay()). Conditions that the bank lacks
+/// are run, and booked in the ledger, where that is allowed. A measurement that is not of a specimen tells
+/// for sure.
+NextSteps next_steps(const BankInHand& bank, const Question& question, std::vector<LedgerRow>& ledger);
+
+}  // namespace pendular::diagnosis

@@ -1,0 +1,252 @@
+#include "diagnosis/bank/emulator.h"
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "base/median.h"
+#include "diagnosis/bank/mean_row.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr int kDegree = 2, kExactDegree = 4;
+constexpr double kLeastRoom = 0.15;  // that a fit leaves a residual, of its variance
+constexpr double kOutlier = 3.0, kOfMedian = 1.4826;
+constexpr double kOfTheFit = 0.35;  // the fit's own variance over the scatter's
+constexpr double kDrawn = 0.35;     // share of a covariance that goes to its diagonal
+
+/// Runs of one id, less the baselines of their members.
+struct Group {
+  std::string id;
+  bool draws = false, exact = false, below = false;
+  std::vector<double> theta;
+  std::vector<Eigen::VectorXd> change;
+
+  double scale() const {
+    double most = 0.0;
+    for (double one : theta) most = std::max(most, std::fabs(one));
+    return most;
+  }
+  int degree() const {
+    const auto levels = std::set<double>(theta.begin(), theta.end()).size();
+    return levels < 2 ? 1 : exact && levels > kExactDegree ? kExactDegree : kDegree;
+  }
+};
+
+void take_baselines(const std::vector<DesignRun>& runs, Eigen::Index features, Responses& responses) {
+  std::map<int, std::vector<const DesignRun*>> baselines;
+  for (const auto& run : runs)
+    if (run.id.empty()) baselines[run.member].push_back(&run);
+  responses.offsets =
+      Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(baselines.size()), features, std::nan(""));
+  for (const auto& [member, of_it] : baselines) {
+    responses.offsets.row(static_cast<Eigen::Index>(responses.members.size())) =
+        of_it.front()->values.transpose();
+    responses.members.push_back(member);
+  }
+  std::vector<Eigen::VectorXd> rows;
+  for (const auto& row : responses.offsets.rowwise()) rows.push_back(row.transpose());
+  responses.mean = mean_row(rows, features);
+}
+
+std::vector<Group> groups_of(const std::vector<DesignRun>& runs, const Responses& responses) {
+  std::vector<Group> groups;
+  for (const auto& run : runs) {
+    if (run.id.empty()) continue;
+    const bool below = run.sided && run.theta < 0.0;
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const Group& g) { return g.id == run.id && g.below == below; });
+    if (group == groups.end())
+      group = groups.insert(groups.end(), {run.id, run.draws, run.exact, below, {}, {}});
+    const auto own = std::find(responses.members.begin(), responses.members.end(), run.member);
+    Eigen::VectorXd baseline = responses.mean;
+    if (own != responses.members.end()) {
+      const Eigen::VectorXd offset = responses.offsets.row(own - responses.members.begin()).transpose();
+      baseline = offset.array().isFinite().select(offset, baseline);
+    }
+    group->theta.push_back(run.theta);
+    group->change.push_back(run.values - baseline);
+  }
+  return groups;
+}
+
+/// Mean products of rows, over those that are finite in both columns.
+Eigen::MatrixXd pairwise(const Eigen::MatrixXd& rows, double freedom_lost) {
+  const Eigen::MatrixXd shown = rows.array().isFinite().cast<double>();
+  const Eigen::MatrixXd values = rows.array().isFinite().select(rows, 0.0);
+  const Eigen::MatrixXd counts = shown.transpose() * shown;
+  return (values.transpose() * values).array() / (counts.array() - freedom_lost).max(1.0);
+}
+
+/// Residuals of a fit: over the square root of the room that the fit leaves each, so that they have the
+/// scatter's variance; and over that room, which is by how much a run is missed by a fit without it.
+struct Residuals {
+  Eigen::MatrixXd scaled, missed;
+};
+
+Response fit_group(const Group& group, Eigen::Index features, Residuals& left) {
+  const auto runs = static_cast<Eigen::Index>(group.theta.size());
+  const int degree = group.degree();
+  const double scale = group.scale();
+  Eigen::MatrixXd matrix(runs, degree);
+  for (Eigen::Index r = 0; r < runs; ++r)
+    for (int n = 0; n < degree; ++n)
+      matrix(r, n) = std::pow(group.theta[static_cast<std::size_t>(r)] / scale, n + 1);
+  Response response;
+  response.powers.assign(static_cast<std::size_t>(degree), Eigen::VectorXd::Zero(features));
+  left.scaled = Eigen::MatrixXd::Constant(runs, features, std::nan(""));
+  left.missed = left.scaled;
+  for (Eigen::Index f = 0; f < features; ++f) {
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index r = 0; r < runs; ++r)
+      if (std::isfinite(group.change[static_cast<std::size_t>(r)][f])) rows.push_back(r);
+    if (rows.empty()) continue;
+    Eigen::VectorXd values(static_cast<Eigen::Index>(rows.size()));
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      values[static_cast<Eigen::Index>(r)] = group.change[static_cast<std::size_t>(rows[r])][f];
+    const Eigen::MatrixXd shown = matrix(rows, Eigen::all);
+    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(shown);
+    const Eigen::VectorXd found = solver.solve(values);
+    const Eigen::MatrixXd inverse = solver.pseudoInverse();
+    for (int n = 0; n < degree; ++n)
+      response.powers[static_cast<std::size_t>(n)][f] = found[n] / std::pow(scale, n + 1);
+    const Eigen::VectorXd residual = values - shown * found;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const auto at = static_cast<Eigen::Index>(r);
+      const double room = std::max(kLeastRoom, 1.0 - shown.row(at).dot(inverse.col(at)));
+      left.scaled(rows[r], f) = residual[at] / std::sqrt(room);
+      left.missed(rows[r], f) = residual[at] / room;
+    }
+  }
+  return response;
+}
+
+/// No residual beyond some median deviations of its column.
+void draw_in_outliers(Eigen::MatrixXd& left) {
+  for (Eigen::Index f = 0; f < left.cols(); ++f) {
+    std::vector<double> sizes;
+    for (const double one : left.col(f))
+      if (std::isfinite(one)) sizes.push_back(std::fabs(one));
+    if (sizes.empty()) continue;
+    const double most = kOutlier * kOfMedian * median(sizes);
+    for (double& one : left.col(f))
+      if (std::isfinite(one)) one = std::clamp(one, -most, most);
+  }
+}
+
+Eigen::MatrixXd stacked(const std::vector<Eigen::MatrixXd>& blocks, Eigen::Index columns) {
+  Eigen::Index rows = 0;
+  for (const auto& block : blocks) rows += block.rows();
+  Eigen::MatrixXd all(rows, columns);
+  rows = 0;
+  for (const auto& block : blocks) all.middleRows(rows, block.rows()) = block, rows += block.rows();
+  return all;
+}
+
+Eigen::MatrixXd shrunk(const Eigen::MatrixXd& covariance) {
+  Eigen::MatrixXd drawn = (1.0 - kDrawn) * covariance;
+  drawn.diagonal() = covariance.diagonal();
+  return positive_part(drawn);
+}
+
+/// Weighs residuals so that their mean square is the least-squares slope of their squares over θ², at the
+/// largest θ: what draws differ by grows with θ, the scatter does not. Returns the scatter's part of it.
+double growth(const Group& group, Eigen::MatrixXd& missed) {
+  const auto runs = static_cast<double>(group.theta.size());
+  double squares = 0.0, fourths = 0.0;
+  for (const double theta : group.theta) {
+    const double share = std::pow(theta / group.scale(), 2);
+    squares += share / runs, fourths += share * share / runs;
+  }
+  for (Eigen::Index r = 0; r < missed.rows(); ++r)
+    missed.row(r) *= std::fabs(group.theta[static_cast<std::size_t>(r)]) / group.scale() / std::sqrt(fourths);
+  return squares / fourths;
+}
+
+/// The response's own covariance: of that by which runs are missed, beyond the scatter.
+void set_draws(const Group& group, Eigen::MatrixXd& missed, const Eigen::MatrixXd& scatter,
+               Response& response) {
+  const double scattered = growth(group, missed);
+  response.drawn_at = group.scale();
+  response.draws = positive_part(pairwise(missed, 0.0) - scattered * scatter);
+  response.drawn_freedom = std::max(2.0, static_cast<double>(group.theta.size()) - group.degree());
+  std::vector<Eigen::Index> complete;
+  for (Eigen::Index r = 0; r < missed.rows(); ++r)
+    if (missed.row(r).allFinite()) complete.push_back(r);
+  response.missed = missed(complete, Eigen::all);
+}
+
+}  // namespace
+
+const Signature* Responses::find(const std::string& id) const {
+  const auto found =
+      std::find_if(signatures.begin(), signatures.end(), [&](const Signature& s) { return s.id == id; });
+  return found == signatures.end() ? nullptr : &*found;
+}
+
+void Responses::add(const std::string& id, bool below, Response response) {
+  auto found =
+      std::find_if(signatures.begin(), signatures.end(), [&](const Signature& s) { return s.id == id; });
+  if (found == signatures.end()) {
+    found = signatures.emplace(signatures.end());
+    found->id = id;
+    static_cast<Response&>(*found) = response;  // of both signs, until the other one comes
+  }
+  if (below)
+    found->below = std::move(response);
+  else
+    static_cast<Response&>(*found) = std::move(response);
+}
+
+Eigen::MatrixXd positive_part(const Eigen::MatrixXd& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (covariance + covariance.transpose()));
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() *
+         solver.eigenvectors().transpose();
+}
+
+Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index features) {
+  Responses responses;
+  take_baselines(runs, features, responses);
+  const auto groups = groups_of(runs, responses);
+  std::vector<Response> fits;
+  std::vector<Residuals> left(groups.size());
+  std::vector<Eigen::MatrixXd> scatter;
+  double parameters = 0.0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    fits.push_back(fit_group(groups[g], features, left[g]));
+    if (groups[g].draws || groups[g].exact) continue;
+    scatter.push_back(left[g].scaled);
+    parameters += groups[g].degree();
+  }
+  Eigen::MatrixXd all = stacked(scatter, features);
+  responses.freedom = std::max(1.0, static_cast<double>(all.rows()) - parameters);
+  draw_in_outliers(all);
+  responses.within = pairwise(all, 0.0);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (!groups[g].exact) set_draws(groups[g], left[g].missed, responses.within, fits[g]);
+    responses.add(groups[g].id, groups[g].below, std::move(fits[g]));
+  }
+  responses.between = pairwise(responses.offsets.rowwise() - responses.mean.transpose(), 1.0);
+  return responses;
+}
+
+Scatter scatter_of(const Responses& responses) {
+  const double members = static_cast<double>(responses.members.size());
+  const Eigen::MatrixXd between = (1.0 + 1.0 / members) * responses.between;
+  const Eigen::MatrixXd within = kOfTheFit * responses.within;
+  Scatter scatter;
+  scatter.covariance = shrunk(between + within);
+  const Eigen::VectorXd diagonal = scatter.covariance.diagonal().cwiseMax(1e-12);
+  scatter.covariance.diagonal() = diagonal;
+  const double share = between.diagonal().cwiseQuotient(diagonal).mean();
+  scatter.freedom = 1.0 / (share * share / std::max(1.0, members - 1.0) +
+                           (1.0 - share) * (1.0 - share) / std::max(1.0, responses.freedom));
+  return scatter;
+}
+
+}  // namespace pendular::diagnosis

@@ -1,0 +1,159 @@
+#include "diagnosis/bank/field_readings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "diagnosis/kinds/kind.h"
+#include "packing/tables.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr double kStatedError = 0.2;         // of stated standard errors
+constexpr double kModelShare = 0.15;         // of what members scatter by
+constexpr double kModelFloor = 0.02;         // of a reading
+constexpr unsigned long kSeedOfRuns = 1000;  // of their noise
+constexpr double kUnstatedSigma =
+    1e-3;  // of displacements, over the beads' diameter, where nothing is stated
+
+/// The beads of an observation's scans, one after the other, in the order of its field.
+std::vector<FollowedBeads> followed_in(const Experiment& experiment, const Observation& observation) {
+  const Sample sample = experiment.sample_of(observation);
+  std::map<std::int64_t, Bead> by_id;
+  for (const auto& bead : read_beads(observation.beads)) by_id[bead.id] = bead;
+  const auto& strains = observation.column("strain");
+  std::vector<FollowedBeads> scans;
+  for (const double strain : std::set<double>(strains.begin(), strains.end())) {
+    FollowedBeads followed;
+    followed.strain = strain;
+    followed.cutoff = sample.bridges.cutoff * sample.beads.diameter;
+    double stated = 0.0;
+    for (std::size_t k = 0; k < strains.size(); ++k) {
+      if (strains[k] != strain) continue;
+      const Bead& bead = by_id.at(static_cast<std::int64_t>(observation.column("bead_id")[k]));
+      followed.beads.push_back(bead);
+      stated +=
+          observation.has("sigma_um") ? observation.column("sigma_um")[k] : M_SQRT2 * 1e6 * bead.sigma_centre;
+    }
+    followed.sigma_um = stated / static_cast<double>(followed.beads.size());
+    if (!(followed.sigma_um > 0.0)) followed.sigma_um = kUnstatedSigma * 1e6 * sample.beads.diameter;
+    scans.push_back(std::move(followed));
+  }
+  return scans;
+}
+
+/// One scan's part of a field.
+Eigen::VectorXd part_of(const Eigen::VectorXd& field, const std::vector<FollowedBeads>& scans,
+                        std::size_t scan) {
+  Eigen::Index first = 0;
+  for (std::size_t s = 0; s < scan; ++s) first += static_cast<Eigen::Index>(3 * scans[s].beads.size());
+  return field.segment(first, static_cast<Eigen::Index>(3 * scans[scan].beads.size()));
+}
+
+Eigen::VectorXd joined(const std::vector<Eigen::VectorXd>& parts) {
+  Eigen::Index size = 0;
+  for (const auto& part : parts) size += part.size();
+  Eigen::VectorXd all(size);
+  size = 0;
+  for (const auto& part : parts) all.segment(size, part.size()) = part, size += part.size();
+  return all;
+}
+
+}  // namespace
+
+std::optional<FieldBank> field_bank(const Experiment& experiment, const BankPlan& plan, std::size_t index,
+                                    const std::vector<SimulatedTests>& tests) {
+  const Observation& observation = experiment.observations[index];
+  const auto& field = observation.kind->field;
+  if (!field || observation.beads.empty()) return std::nullopt;
+  constexpr double um = 1e6;
+  FieldBank bank{observation.name,
+                 followed_in(experiment, observation),
+                 um * field(observation, observation.columns),
+                 {}};
+  bool baseline = false;
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    const auto columns =
+        simulated_columns(experiment, plan.conditions, index, tests[k], plan.points[k].changes);
+    bank.of_runs.emplace_back();
+    if (columns) bank.of_runs.back() = um * field(observation, *columns);
+    baseline = baseline || (columns && plan.points[k].id.empty());
+  }
+  if (!baseline) return std::nullopt;
+  return bank;
+}
+
+FieldReader::FieldReader(const FieldBank& bank, const std::vector<DesignPoint>& points, int but) : but_(but) {
+  for (std::size_t s = 0; s < bank.scans.size(); ++s) {
+    std::vector<BankField> learnt;
+    for (std::size_t k = 0; k < bank.of_runs.size(); ++k)
+      if (bank.of_runs[k] && points[k].member != but)
+        learnt.push_back(
+            {points[k].member, points[k].id, points[k].theta, part_of(*bank.of_runs[k], bank.scans, s)});
+    statistics_.emplace_back(bank.scans[s], learnt);
+  }
+}
+
+std::vector<Feature> FieldReader::measured(const FieldBank& bank) const {
+  std::vector<Feature> found;
+  for (std::size_t s = 0; s < statistics_.size(); ++s) {
+    const FieldStatistics& read = statistics_[s];
+    const Eigen::VectorXd values = read(part_of(bank.measured, bank.scans, s));
+    for (std::size_t n = 0; n < read.size(); ++n)
+      found.push_back({bank.observation,
+                       fmt::format("{}_at_{:.2f}_percent", read.names()[n], 100.0 * read.strain()),
+                       Scale::network, false, values[static_cast<Eigen::Index>(n)], 0.0, read.strain()});
+  }
+  return found;
+}
+
+Eigen::VectorXd FieldReader::read(const Eigen::VectorXd& field, unsigned long noise_seed,
+                                  double share) const {
+  std::vector<Eigen::VectorXd> parts;
+  Eigen::Index first = 0;
+  for (const auto& statistics : statistics_) {
+    const Eigen::VectorXd noise = statistics.noise(noise_seed, share);
+    parts.push_back(statistics(field.segment(first, noise.size()) + noise));
+    first += noise.size();
+  }
+  return joined(parts);
+}
+
+std::vector<Eigen::VectorXd> FieldReader::of_runs(const FieldBank& bank,
+                                                  const std::vector<DesignPoint>& points) const {
+  std::size_t size = 0;
+  for (const auto& statistics : statistics_) size += statistics.size();
+  std::vector<Eigen::VectorXd> found;
+  for (std::size_t k = 0; k < bank.of_runs.size(); ++k)
+    found.push_back(bank.of_runs[k] && points[k].member != but_
+                        ? read(*bank.of_runs[k], kSeedOfRuns + static_cast<unsigned long>(points[k].member))
+                        : Eigen::VectorXd::Constant(static_cast<Eigen::Index>(size), std::nan("")));
+  return found;
+}
+
+Eigen::VectorXd FieldReader::by_noise(const FieldBank& bank, const std::vector<DesignPoint>& points) const {
+  Eigen::VectorXd sum;
+  double count = 0.0;
+  for (std::size_t k = 0; k < bank.of_runs.size(); ++k) {
+    if (!bank.of_runs[k] || !points[k].id.empty() || points[k].member == but_) continue;
+    const auto seed = static_cast<unsigned long>(points[k].member);
+    const Eigen::VectorXd more =
+        read(*bank.of_runs[k], seed, 1.0 + kStatedError) - read(*bank.of_runs[k], seed, 1.0 - kStatedError);
+    sum = count > 0.0 ? Eigen::VectorXd(sum + more) : more;
+    count += 2.0;
+  }
+  return sum / count;
+}
+
+Eigen::MatrixXd field_model_error(const std::vector<Eigen::VectorXd>& baselines) {
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(baselines.front().size()), square = mean;
+  for (const auto& one : baselines) mean += one / static_cast<double>(baselines.size());
+  for (const auto& one : baselines)
+    square += (one - mean).cwiseAbs2() / static_cast<double>(baselines.size());
+  return (kModelShare * kModelShare * square.array() + kModelFloor * kModelFloor).matrix().asDiagonal();
+}
+
+}  // namespace pendular::diagnosis

@@ -1,0 +1,26 @@
+#include "diagnosis/bank/law_readings.h"
+
+#include <algorithm>
+
+namespace pendular::diagnosis {
+
+const std::vector<LawReading>& law_readings() {
+  static const std::vector<LawReading> all = {
+      {"tangential_springs", "one tangential spring or two",
+       [](Sample& sample) {
+         auto& springs = sample.contact.tangential_springs;
+         springs = springs == "one" ? "two" : "one";
+       }},
+      {"bond_friction_limit", "Coulomb's limit on bonds",
+       [](Sample& sample) { sample.contact.bond_friction_limit = !sample.contact.bond_friction_limit; }},
+  };
+  return all;
+}
+
+const LawReading* find_law_reading(const std::string& id) {
+  const auto& all = law_readings();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return id == one.id; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace pendular::diagnosis

@@ -1,0 +1,31 @@
+#include "diagnosis/bank/runner.h"
+
+#include <fmt/format.h>
+
+#include "effects/list.h"
+
+namespace pendular::diagnosis {
+
+std::optional<SimulatedTest> read_outcome(const sweep::RunOutcome& outcome, std::size_t condition,
+                                          const std::string& made_for, const Changes& changes,
+                                          std::vector<LedgerRow>& ledger) {
+  ledger.push_back({outcome.hash, made_for + purpose_of(changes), sweep::to_string(outcome.status),
+                    outcome.message, condition});
+  if (outcome.status != sweep::RunStatus::done) return std::nullopt;
+  SimulatedTest test = read_simulated_test(outcome.folder);
+  for (const auto& effect : effects::all_effects())
+    if (effect.rows && changes.contains(effect.id)) read_frames(effect, changes.at(effect.id), test);
+  return test;
+}
+
+std::string purpose_of(const Changes& changes) {
+  if (changes.empty()) return "baseline";
+  std::string words;
+  for (const auto& [id, value] : changes) {
+    if (!words.empty()) words += ", ";
+    words += fmt::format("{} {:.4g}{}", id, value, id.find('.') == std::string::npos ? "" : " sd");
+  }
+  return words;
+}
+
+}  // namespace pendular::diagnosis

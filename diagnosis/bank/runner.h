@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "diagnosis/bank/feature_values.h"
+#include "diagnosis/diagnosis.h"
+#include "sweep/execute.h"
+
+namespace pendular::diagnosis {
+
+/// Makes a batch of runs, under a name that progress shows.
+using MakeRuns = std::function<std::vector<sweep::RunOutcome>(const std::string& name,
+                                                              std::span<const sweep::RunRequest> requests)>;
+
+/// Reads a run that is done and books every run in the ledger, as what it was made `for`; nothing where it
+/// failed.
+std::optional<SimulatedTest> read_outcome(const sweep::RunOutcome& outcome, std::size_t condition,
+                                          const std::string& made_for, const Changes& changes,
+                                          std::vector<LedgerRow>& ledger);
+
+/// "baseline", "missing_bridges 0.1", "bridges.youngs_modulus_pa -2 sd".
+std::string purpose_of(const Changes& changes);
+
+}  // namespace pendular::diagnosis

@@ -1,0 +1,334 @@
+#include "diagnosis/inference/calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <set>
+
+#include "diagnosis/inference/log_sum.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr double kTemperatures[] = {1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0};
+constexpr double kLeastProbability = 1e-9;  // that a wrong answer is charged with
+constexpr double kFalseAlarms = 0.05, kOfTheta = 0.9, kOfLimits = 0.95;
+constexpr double kBySlip = 0.05;  // of runs without an effect that are told from none; level of a test of it
+constexpr double kOfAll = 10.0;   // runs that what all effects need is worth beside an effect's own
+constexpr double kUnknownAlone = 0.95;
+constexpr double kLeastInCluster = 40.0;  // runs
+constexpr double kLessInCluster = 0.05;   // confidence that one cluster may have less than all together
+constexpr std::size_t kLeastCases = 60;   // from which a replay is believed
+constexpr double kBins[] = {0.0, 0.4, 0.6, 0.8, 0.9, 1.0};
+constexpr const char* kNone = "none";
+constexpr const char* kUnknown = "unknown";
+
+std::string truth_of(const Replayed& one) {
+  return one.truth.empty() ? kNone : one.truth.begin()->first;
+}
+
+const Hypothesis* said_of(const std::vector<Hypothesis>& said, const std::string& id) {
+  for (const auto& h : said)
+    if (h.id == id) return &h;
+  return nullptr;
+}
+
+/// The least value that ⌈(n+1) share⌉ of these do not exceed: of the n+1 to come as many, whatever their law.
+double conformal(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const double n = static_cast<double>(values.size());
+  const auto rank = static_cast<std::size_t>(std::ceil((n + 1.0) * share));
+  return values[std::min(values.size(), rank) - 1];
+}
+
+/// Probability that the known explanations before one have together, over that of all known.
+double before(const std::vector<Hypothesis>& said, const std::string& id) {
+  double sum = 0.0, all = 0.0;
+  bool reached = false;
+  for (const auto& h : said) {
+    reached = reached || h.id == id;
+    if (h.id == kUnknown) continue;
+    all += h.probability;
+    if (!reached) sum += h.probability;
+  }
+  return all > 0.0 ? sum / all : 0.0;
+}
+
+/// By how much an interval must be widened about its mean to hold a value.
+double needed_widening(const Magnitude& magnitude, double theta) {
+  const double room = theta > magnitude.mean ? magnitude.interval_90.second - magnitude.mean
+                                             : magnitude.mean - magnitude.interval_90.first;
+  return std::fabs(theta - magnitude.mean) / std::max(room, 1e-12);
+}
+
+std::vector<Hypothesis> tempered(const std::vector<Hypothesis>& said, double temperature) {
+  Correction correction;
+  correction.temperature = temperature, correction.widening_of_others = 1.0;
+  return corrected(said, correction);
+}
+
+using Cases = std::vector<const Replayed*>;
+
+double temperature_of(const Cases& cases) {
+  double best = 1.0, least = INFINITY;
+  for (const double temperature : kTemperatures) {
+    double loss = 0.0;
+    for (const auto* one : cases) {
+      const auto said = tempered(one->said, temperature);
+      const Hypothesis* truth = said_of(said, truth_of(*one));
+      loss -= std::log(std::max(kLeastProbability, truth ? truth->probability : 0.0));
+    }
+    if (loss < least) least = loss, best = temperature;
+  }
+  return best;
+}
+
+/// Whether a set holds an answer.
+bool holds(const AmbiguitySet& set, const std::string& id) {
+  return std::find(set.ids.begin(), set.ids.end(), id) != set.ids.end();
+}
+
+/// Whether a set is right: it holds the truth, or none where the truth is unseen.
+bool right(const AmbiguitySet& set, const std::string& truth, const Correction& correction) {
+  return holds(set, truth) || (correction.unseen.contains(truth) && holds(set, kNone));
+}
+
+/// Truths in the order of the level that they need at the mean, split in two where the parts differ most; one
+/// part where either would have too few runs.
+std::vector<std::vector<std::string>> clusters_of(const std::map<std::string, std::vector<double>>& needed) {
+  std::vector<std::pair<double, std::string>> order;
+  double all = 0.0, runs = 0.0;
+  for (const auto& [id, values] : needed) {
+    const double sum = std::accumulate(values.begin(), values.end(), 0.0),
+                 n = static_cast<double>(values.size());
+    order.emplace_back(sum / n, id);
+    all += sum, runs += n;
+  }
+  std::sort(order.begin(), order.end());
+  double sum = 0.0, n = 0.0, most = 0.0;
+  std::size_t split = order.size();
+  for (std::size_t k = 0; k + 1 < order.size(); ++k) {
+    const double here = static_cast<double>(needed.at(order[k].second).size());
+    sum += here * order[k].first, n += here;
+    const double apart = n * (runs - n) * std::pow(sum / n - (all - sum) / (runs - n), 2);
+    if (std::min(n, runs - n) >= kLeastInCluster && apart > most) most = apart, split = k + 1;
+  }
+  std::vector<std::vector<std::string>> clusters(split < order.size() ? 2 : 1);
+  for (std::size_t k = 0; k < order.size(); ++k) clusters[k < split ? 0 : 1].push_back(order[k].second);
+  return clusters;
+}
+
+/// The least levels at which sets hold their truth: in each cluster of truths nearly as often as asked for,
+/// and in all together as often.
+void learn_levels(const std::vector<std::vector<Hypothesis>>& said, const Cases& cases, double confidence,
+                  Correction& found) {
+  std::map<std::string, std::vector<double>> needed;
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const std::string truth = truth_of(*cases[k]);
+    double level = before(said[k], truth);
+    if (found.unseen.contains(truth)) level = std::min(level, before(said[k], kNone));
+    needed[truth].push_back(level);
+  }
+  std::vector<double> beyond;  // levels that are needed where a cluster's own does not do
+  found.levels.clear();
+  for (const auto& cluster : clusters_of(needed)) {
+    std::vector<double> values;
+    for (const auto& id : cluster) values.insert(values.end(), needed[id].begin(), needed[id].end());
+    const double own = conformal(values, confidence - kLessInCluster);
+    for (const auto& id : cluster) found.levels[id] = own;
+    for (const double value : values) beyond.push_back(value <= own ? 0.0 : value);
+  }
+  found.level = conformal(std::move(beyond), confidence);
+  for (auto& [id, level] : found.levels) level = std::max(level, found.level);
+}
+
+/// Probability that of n runs at least so many are told from none by slips alone.
+double by_slips(int told, int n) {
+  double below = 0.0, term = std::pow(1.0 - kBySlip, n);
+  for (int k = 0; k < told; ++k) {
+    below += term;
+    term *= kBySlip / (1.0 - kBySlip) * static_cast<double>(n - k) / static_cast<double>(k + 1);
+  }
+  return 1.0 - below;
+}
+
+/// Effects whose runs are told from none no more often than runs without one may be.
+std::set<std::string> unseen_effects(const std::vector<std::vector<Hypothesis>>& said, const Cases& cases,
+                                     const Correction& correction) {
+  std::map<std::string, std::pair<int, int>> told;  // of an effect's runs, and all
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    auto& [apart, all] = told[truth_of(*cases[k])];
+    apart += !holds(set_of(said[k], correction), kNone), ++all;
+  }
+  std::set<std::string> unseen;
+  for (const auto& [id, counts] : told)
+    if (id != kNone && by_slips(counts.first, counts.second) > kBySlip) unseen.insert(id);
+  return unseen;
+}
+
+/// Widenings of intervals of θ and of upper limits.
+void learn_magnitudes(const Cases& cases, Correction& found) {
+  std::vector<double> all, limits;
+  std::map<std::string, std::vector<double>> widenings;
+  for (const auto* one : cases) {
+    const Hypothesis* truth = said_of(one->said, truth_of(*one));
+    if (one->truth.empty() || !truth) continue;
+    all.push_back(needed_widening(truth->magnitudes.front(), one->truth.begin()->second));
+    widenings[truth->id].push_back(all.back());
+  }
+  if (all.empty()) return;
+  found.widening_of_others = std::max(1.0, conformal(std::move(all), kOfTheta));
+  for (auto& [id, values] : widenings) {
+    const double n = static_cast<double>(values.size()),
+                 own = std::max(0.3, conformal(std::move(values), kOfTheta));
+    found.widening[id] = std::max(
+        1.0, std::exp((n * std::log(own) + kOfAll * std::log(found.widening_of_others)) / (n + kOfAll)));
+  }
+  found.widening_of_limits = 1.0;
+  for (const auto* one : cases) {
+    const auto said = corrected(one->said, found);
+    if (const Hypothesis* truth = said_of(said, truth_of(*one)); truth && !one->truth.empty())
+      limits.push_back(std::fabs(one->truth.begin()->second) /
+                       std::max(1e-12, upper_limit(truth->magnitudes.front(), found)));
+  }
+  found.widening_of_limits = std::max(1.0, conformal(std::move(limits), kOfLimits));
+}
+
+Correction learn(const Cases& cases, double confidence) {
+  Correction found;
+  found.temperature = temperature_of(cases);
+  std::vector<std::vector<Hypothesis>> said;
+  std::vector<double> alarms;
+  for (const auto* one : cases) {
+    said.push_back(tempered(one->said, found.temperature));
+    alarms.push_back(said_of(said.back(), kUnknown)->probability);
+  }
+  found.gate = conformal(std::move(alarms), 1.0 - kFalseAlarms);
+  learn_levels(said, cases, confidence, found);
+  found.unseen = unseen_effects(said, cases, found);
+  learn_levels(said, cases, confidence, found);
+  learn_magnitudes(cases, found);
+  return found;
+}
+
+/// Adds what one replayed run shows of corrections that did not see its member.
+void count(const Replayed& one, const Correction& correction, Promise& promise,
+           std::vector<Reliability>& bins, double& magnitudes) {
+  const auto said = corrected(one.said, correction);
+  const AmbiguitySet set = set_of(said, correction);
+  const std::string truth = truth_of(one);
+  promise.in_set += right(set, truth, correction);
+  promise.set_size += static_cast<double>(set.ids.size());
+  promise.false_alarms += holds(set, kUnknown);
+  const double top = said.front().probability;
+  const auto bin =
+      static_cast<std::size_t>(std::upper_bound(kBins + 1, std::end(kBins) - 1, top) - kBins - 1);
+  bins[bin].said += top, bins[bin].came_true += said.front().id == truth, ++bins[bin].cases;
+  if (one.truth.empty()) return;
+  EffectReplay& effect = promise.effects[truth];
+  ++effect.cases;
+  effect.told_from_none += !holds(set, kNone);
+  effect.first += said.front().id == truth;
+  effect.in_set += right(set, truth, correction);
+  const Hypothesis* named = said_of(said, truth);
+  if (!named) return;
+  const auto& [low, high] = named->magnitudes.front().interval_90;
+  const double theta = one.truth.begin()->second;
+  promise.theta_held += low <= theta && theta <= high, magnitudes += 1.0;
+  promise.limits_held += std::fabs(theta) <= upper_limit(named->magnitudes.front(), correction);
+}
+
+/// "a+b" stands beside a or b.
+bool adds_to(const std::string& pair, const std::vector<std::string>& ids) {
+  const auto plus = pair.find('+');
+  if (plus == std::string::npos) return false;
+  return std::any_of(ids.begin(), ids.end(), [&](const std::string& id) {
+    return id == pair.substr(0, plus) || id == pair.substr(plus + 1);
+  });
+}
+
+}  // namespace
+
+double upper_limit(const Magnitude& magnitude, const Correction& correction) {
+  return correction.widening_of_limits *
+         std::max(std::fabs(magnitude.interval_90.first), std::fabs(magnitude.interval_90.second));
+}
+
+std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction) {
+  std::vector<double> logs;
+  for (const auto& h : said)
+    logs.push_back(std::log(std::max(1e-300, h.probability)) +
+                   h.log_evidence * (1.0 / correction.temperature - 1.0));
+  const double total = log_sum(logs);
+  for (std::size_t k = 0; k < said.size(); ++k) {
+    said[k].probability = std::exp(logs[k] - total);
+    const auto own = correction.widening.find(said[k].id);
+    const double widening = own == correction.widening.end() ? correction.widening_of_others : own->second;
+    for (auto& [mean, interval] : said[k].magnitudes)
+      interval = {mean + widening * (interval.first - mean), mean + widening * (interval.second - mean)};
+  }
+  std::stable_sort(said.begin(), said.end(),
+                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  return said;
+}
+
+AmbiguitySet set_of(const std::vector<Hypothesis>& said, const Correction& correction) {
+  AmbiguitySet set;
+  double known = 0.0;
+  for (const auto& h : said)
+    if (h.id != kUnknown) known += h.probability;
+  const Hypothesis* unknown = said_of(said, kUnknown);
+  const bool first = unknown && said.front().id == kUnknown;
+  if (first) set.ids.push_back(kUnknown);
+  if (!first || unknown->probability < kUnknownAlone) {
+    double held = 0.0;
+    for (const auto& h : said) {
+      if (h.id == kUnknown) continue;
+      const auto own = correction.levels.find(h.id);
+      const bool in = held <= (own == correction.levels.end() ? correction.level : own->second);
+      if (in && !adds_to(h.id, set.ids)) set.ids.push_back(h.id);
+      held += h.probability / known;
+    }
+  }
+  if (holds(set, kNone))
+    std::erase_if(set.ids, [&](const std::string& id) { return correction.unseen.contains(id); });
+  if (unknown && !first && unknown->probability > correction.gate) set.ids.push_back(kUnknown);
+  for (const auto& h : said)
+    if (holds(set, h.id) || adds_to(h.id, set.ids)) set.probability += h.probability;
+  return set;
+}
+
+Promise promise_of(const std::vector<Replayed>& replayed, double confidence) {
+  Promise promise;
+  promise.confidence = confidence;
+  promise.correction.level = std::max(confidence, promise.correction.level);
+  Cases cases;
+  std::set<int> members;
+  for (const auto& one : replayed)
+    if (one.truth.size() < 2) cases.push_back(&one), members.insert(one.member);
+  if (cases.size() < kLeastCases || members.size() < 3) return promise;
+  promise.cases = cases.size();
+  promise.correction = learn(cases, confidence);
+  std::vector<Reliability> bins(std::size(kBins) - 1);
+  double magnitudes = 0.0;
+  for (const int member : members) {
+    Cases others;
+    std::copy_if(cases.begin(), cases.end(), std::back_inserter(others),
+                 [&](const Replayed* one) { return one->member != member; });
+    const Correction without = learn(others, confidence);
+    for (const auto* one : cases)
+      if (one->member == member) count(*one, without, promise, bins, magnitudes);
+  }
+  const double n = static_cast<double>(cases.size());
+  promise.in_set /= n, promise.set_size /= n, promise.false_alarms /= n;
+  if (magnitudes > 0.0) promise.theta_held /= magnitudes, promise.limits_held /= magnitudes;
+  for (auto& bin : bins) {
+    if (bin.cases == 0) continue;
+    bin.said /= static_cast<double>(bin.cases), bin.came_true /= static_cast<double>(bin.cases);
+    promise.reliability.push_back(bin);
+  }
+  return promise;
+}
+
+}  // namespace pendular::diagnosis

@@ -1,0 +1,239 @@
+#include "diagnosis/inference/comparison.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/median.h"
+#include "base/random.h"
+#include "diagnosis/bank/law_readings.h"
+#include "diagnosis/bank/mean_row.h"
+#include "diagnosis/bank/model_error.h"
+#include "diagnosis/inference/reduced_space.h"
+#include "diagnosis/kinds/tools.h"
+#include "effects/list.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr double kScale = 0.5, kLeast = 0.12;  // usual and least magnitudes, over the bank's largest
+// Of responses: a polynomial through three magnitudes is not the effect. Beads that were measured wrongly are
+// only nearly found again.
+constexpr double kError = 0.07, kErrorOfBeads = 0.4;
+// Of each reading's variance, once more, without correlation: some hundred readings are known from a dozen
+// members.
+constexpr double kApart = 1.0;
+constexpr double kReading =
+    0.5;  // of what the other reading of a law does: one standard deviation of two that are alike
+
+double largest_in_bank(const effects::Effect& effect) {
+  return std::max(std::fabs(effect.bank_from), std::fabs(effect.bank_to));
+}
+
+/// Builds a comparison from a design.
+class Learner {
+ public:
+  Learner(const Experiment& experiment, const BankPlan& plan, const Design& design)
+      : experiment_(experiment), plan_(plan), design_(design) {
+    found_.observed = design.observed;
+  }
+
+  Comparison learn() {
+    fit();
+    return std::move(found_);
+  }
+
+ private:
+  Eigen::Index size() const { return static_cast<Eigen::Index>(found_.observed.features.size()); }
+
+  void fit() {
+    const Responses responses = fit_responses(design_.runs, size());
+    found_.simulated = mean_row(design_.whole, size());
+    found_.gap.values = found_.observed.values() - found_.simulated;
+    set_signatures(responses);
+    set_together(responses);
+    set_believed(responses);
+    set_covariance(responses);
+    if (found_.observed.level == Level::readings) set_outside(responses);
+  }
+
+  void set_signatures(const Responses& responses) {
+    for (const auto& effect : effects::all_effects()) {
+      if (plan_.absent.contains(effect.id)) continue;
+      const Signature* learnt = responses.find(effect.id);
+      if (!learnt) continue;
+      Signature signature = *learnt;
+      signature.lowest = std::max(effect.lowest, kBeyondBank * effect.bank_from);
+      signature.highest = std::min(effect.highest, kBeyondBank * effect.bank_to);
+      signature.scale = usual_magnitude(effect), signature.least = kLeast * largest_in_bank(effect);
+      signature.error = effect.beads ? kErrorOfBeads : kError;
+      found_.signatures.push_back(std::move(signature));
+    }
+  }
+
+  /// Of the pairs that were run: what they do beyond the sum of their responses.
+  void set_together(const Responses& responses) {
+    for (const auto& point : plan_.points) {
+      const Signature* both = responses.find(point.id);
+      const bool known = std::any_of(found_.together.begin(), found_.together.end(),
+                                     [&](const Together& t) { return t.a + "+" + t.b == point.id; });
+      if (point.changes.size() != 2 || !both || known) continue;
+      Together pair{point.changes.begin()->first, point.changes.rbegin()->first,
+                    point.changes.begin()->second, point.changes.rbegin()->second, both->at(1.0)};
+      for (const auto& signature : found_.signatures) {
+        if (signature.id == pair.a) pair.beyond -= signature.at(pair.theta_a);
+        if (signature.id == pair.b) pair.beyond -= signature.at(pair.theta_b);
+      }
+      found_.together.push_back(std::move(pair));
+    }
+  }
+
+  void set_believed(const Responses& responses) {
+    std::vector<Eigen::VectorXd> columns;
+    const auto add = [&](const std::string& name, const Eigen::VectorXd& column) {
+      found_.inputs.push_back(name);
+      columns.push_back(column.unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; }));
+    };
+    for (const auto& [key, sd] : floating_inputs(experiment_))
+      if (const Signature* found = responses.find(key)) {
+        add(key, found->powers.front());
+        // Of θ², whose standard deviation is √2.
+        if (found->powers.size() > 1) add(key + kCurvature, M_SQRT2 * found->powers[1]);
+      }
+    for (const auto& reading : law_readings())
+      if (const Signature* found = responses.find(reading.id)) add(reading.name, kReading * found->at(1.0));
+    Eigen::VectorXd stresses(size());
+    for (Eigen::Index f = 0; f < size(); ++f)
+      stresses[f] = shared_stress_error(found_.observed.features[static_cast<std::size_t>(f)]);
+    add(kSimulationError, stresses);
+    const bool measured = std::any_of(plan_.conditions.begin(), plan_.conditions.end(),
+                                      [](const Condition& c) { return !c.beads.empty(); });
+    // The specimen is to the measured one as that is to those with further errors.
+    if (measured && responses.offsets.rows() > 1)
+      add(kBeadsError, responses.mean - responses.offsets.row(0).transpose());
+    if (design_.by_noise.squaredNorm() > 0.0) add(kFieldError, design_.by_noise);
+    found_.gap.believed = Eigen::MatrixXd(size(), static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      found_.gap.believed.col(static_cast<Eigen::Index>(c)) = columns[c];
+  }
+
+  void set_covariance(const Responses& responses) {
+    const Scatter scatter = scatter_of(responses);
+    const auto& observed = found_.observed;
+    found_.gap.covariance = scatter.covariance + positive_part(observed.measurement + observed.model);
+    double share = 0.0;
+    for (Eigen::Index f = 0; f < size(); ++f) {
+      NoiseBudget budget;
+      budget.ensemble = std::sqrt(scatter.covariance(f, f));
+      budget.measurement = observed.sigma(static_cast<std::size_t>(f));
+      budget.model = std::sqrt(observed.model(f, f));
+      budget.believed = found_.gap.believed.row(f).norm();
+      share += scatter.covariance(f, f) / found_.gap.covariance(f, f) / static_cast<double>(size());
+      found_.noise.push_back(budget);
+    }
+    if (observed.level == Level::readings) found_.gap.covariance.diagonal() *= 1.0 + kApart;
+    // Welch and Satterthwaite: only the ensemble's part of the noise was estimated.
+    found_.gap.freedom = scatter.freedom / std::max(1e-6, share * share);
+  }
+
+  /// What the runs themselves have outside the span of the responses: those without an effect as it is, the
+  /// others as a share of what their effect does within it.
+  void set_outside(const Responses& responses) {
+    const ReducedSpace space(found_.gap, found_.signatures);
+    const auto& observed = found_.observed;
+    const Eigen::MatrixXd noise = root_of(observed.measurement + observed.model);  // which runs do not have
+    const auto outside = [&](const DesignRun& run) {
+      Eigen::VectorXd drawn(size());
+      for (Eigen::Index k = 0; k < size(); ++k)
+        drawn[k] = random_normal(static_cast<std::uint64_t>(&run - design_.runs.data()),
+                                 static_cast<std::uint64_t>(k));
+      return space.outside(run.values - responses.mean + noise * drawn);
+    };
+    for (const auto& run : design_.runs)
+      if (run.values.allFinite() && !signature_of(run.id) && run.id.find('+') == std::string::npos)
+        found_.gap.outside.push_back(outside(run));
+    if (found_.gap.outside.empty()) return;
+    const double usual = median(found_.gap.outside);
+    for (auto& signature : found_.signatures) {
+      std::vector<double> shares;
+      for (const auto& run : design_.runs)
+        if (run.id == signature.id && run.values.allFinite())
+          shares.push_back(std::max(0.0, outside(run) - usual) /
+                           (1.0 + space.reduced(run.values - responses.mean).squaredNorm()));
+      if (!shares.empty()) signature.outside = std::max(signature.outside, std::sqrt(mean_of(shares)));
+    }
+  }
+
+  const Signature* signature_of(const std::string& id) const {
+    for (const auto& signature : found_.signatures)
+      if (signature.id == id) return &signature;
+    return nullptr;
+  }
+
+  const Experiment& experiment_;
+  const BankPlan& plan_;
+  const Design& design_;
+  Comparison found_;
+};
+
+}  // namespace
+
+double usual_magnitude(const effects::Effect& effect) {
+  return kScale * largest_in_bank(effect);
+}
+
+Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
+Comparison compare(const Experiment& experiment, const BankPlan& plan, const Design& design) {
+  return Learner(experiment, plan, design).learn();
+}
+
+Gap part_of(const Gap& gap, const std::vector<std::size_t>& features) {
+  const std::vector<Eigen::Index> rows(features.begin(), features.end());
+  Gap part;
+  part.values = gap.values(rows);
+  part.covariance = gap.covariance(rows, rows);
+  part.believed = gap.believed(rows, Eigen::all);
+  part.freedom = gap.freedom;
+  return part;
+}
+
+std::vector<Signature> part_of(const std::vector<Signature>& signatures,
+                               const std::vector<std::size_t>& features) {
+  const std::vector<Eigen::Index> rows(features.begin(), features.end());
+  std::vector<Signature> parts = signatures;
+  const auto take = [&](Response& response) {
+    for (auto& power : response.powers) power = Eigen::VectorXd(power(rows));
+    if (response.draws.size() > 0) response.draws = Eigen::MatrixXd(response.draws(rows, rows));
+    if (response.missed.size() > 0) response.missed = Eigen::MatrixXd(response.missed(Eigen::all, rows));
+  };
+  for (auto& part : parts) {
+    take(part);
+    if (part.below) take(*part.below);
+  }
+  return parts;
+}
+
+std::vector<Together> part_of(const std::vector<Together>& together,
+                              const std::vector<std::size_t>& features) {
+  const std::vector<Eigen::Index> rows(features.begin(), features.end());
+  std::vector<Together> parts = together;
+  for (auto& part : parts) part.beyond = Eigen::VectorXd(part.beyond(rows));
+  return parts;
+}
+
+std::vector<std::size_t> features_from(const Comparison& comparison,
+                                       const std::vector<std::size_t>& observations) {
+  std::vector<std::size_t> features;
+  for (std::size_t f = 0; f < comparison.observed.features.size(); ++f)
+    if (std::find(observations.begin(), observations.end(), comparison.observed.observation[f]) !=
+        observations.end())
+      features.push_back(f);
+  return features;
+}
+
+}  // namespace pendular::diagnosis

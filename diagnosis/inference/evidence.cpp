@@ -1,0 +1,130 @@
+#include "diagnosis/inference/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "diagnosis/inference/log_sum.h"
+#include "diagnosis/inference/weigher.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr int kCells = 81;  // of an effect's range, in which another's nearest is looked for
+
+Weighed none(const ReducedSpace& space, const ReducedGap& gap) {
+  const Eigen::Index size = space.size();
+  const Prediction nothing = space.predict(Eigen::VectorXd::Zero(size),
+                                           {Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)});
+  const Fit fit = space.fit(gap, nothing);
+  return {{"none", fit.log_likelihood, 0.0, {}, fit.misfit}, beside_unknown(space, gap, nothing, fit.misfit)};
+}
+
+/// Something beside what is known, or, by chance, something that does what a known effect would.
+Hypothesis unknown(const std::vector<Weighed>& known, double like_known) {
+  std::vector<double> beside, like;
+  for (const auto& one : known) {
+    beside.push_back(one.beside_unknown);
+    if (one.hypothesis.magnitudes.size() == 1) like.push_back(one.hypothesis.log_evidence);
+  }
+  const auto mean = [](const std::vector<double>& terms) {
+    return log_sum(terms) - std::log(static_cast<double>(terms.size()));
+  };
+  const double other = mean(beside);
+  if (like.empty()) return {"unknown", other, 0.0, {}, known.front().hypothesis.misfit};
+  return {"unknown",
+          log_sum({other + std::log(1.0 - like_known), mean(like) + std::log(like_known)}),
+          0.0,
+          {},
+          known.front().hypothesis.misfit};
+}
+
+/// Evidences times priors, made to sum to one; most probable first.
+void make_probabilities(std::vector<Hypothesis>& hypotheses,
+                        const std::function<double(const Hypothesis&)>& prior) {
+  std::vector<double> log_weight;
+  for (const auto& h : hypotheses) log_weight.push_back(h.log_evidence + std::log(prior(h)));
+  const double total = log_sum(log_weight);
+  for (std::size_t k = 0; k < hypotheses.size(); ++k)
+    hypotheses[k].probability = std::exp(log_weight[k] - total);
+  std::stable_sort(hypotheses.begin(), hypotheses.end(),
+                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
+}
+
+/// What two effects do together, reduced, in their order; none where they were not run.
+std::optional<Together> together_of(const std::vector<Together>& all, const Signature& a, const Signature& b,
+                                    const ReducedSpace& space) {
+  for (Together one : all) {
+    if (one.a == b.id && one.b == a.id) std::swap(one.a, one.b), std::swap(one.theta_a, one.theta_b);
+    if (one.a != a.id || one.b != b.id) continue;
+    one.beyond = space.reduced(one.beyond);
+    return one;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Weigher::Weigher(const Gap& gap, const std::vector<Signature>& signatures,
+                 const std::vector<Together>& together, const Priors& priors, Pairs which)
+    : space_(gap, signatures), priors_(priors) {
+  for (const auto& signature : signatures) reduced_.push_back(space_.reduced(signature));
+  for (const auto& one : reduced_) singles_.emplace_back(std::vector{one}, std::nullopt, space_);
+  for (std::size_t a = 0; a < reduced_.size(); ++a)
+    for (std::size_t b = a + 1; b < reduced_.size(); ++b) {
+      auto run = together_of(together, reduced_[a], reduced_[b], space_);
+      if (run || which == Pairs::all) pairs_.push_back({a, b, std::move(run)});
+    }
+}
+
+std::vector<Hypothesis> Weigher::operator()(const Eigen::VectorXd& values, double negligible) const {
+  const ReducedGap gap = space_.gap(values);
+  std::vector<Weighed> known = {none(space_, gap)};
+  double best = known.front().hypothesis.log_evidence;
+  for (const auto& one : singles_) best = std::max(best, one.coarse_evidence(gap));
+  for (const auto& one : singles_) known.push_back(one.weigh(gap, best - negligible));
+  std::vector<Hypothesis> all = {unknown(known, priors_.like_known)};
+  for (auto& one : known) all.push_back(std::move(one.hypothesis));
+  for (const auto& [a, b, run] : pairs_)
+    all.push_back(MagnitudeGrid({reduced_[a], reduced_[b]}, run, space_).weigh(gap).hypothesis);
+  const double effects = static_cast<double>(singles_.size());
+  const double pairs = effects > 1.0 ? priors_.pairs : 0.0;
+  make_probabilities(all, [&](const Hypothesis& h) {
+    if (h.id == "none") return priors_.none;
+    if (h.id == "unknown") return priors_.unknown;
+    if (h.magnitudes.size() == 2) return pairs / (0.5 * effects * (effects - 1.0));
+    return (1.0 - priors_.none - priors_.unknown - pairs) / effects;
+  });
+  return all;
+}
+
+std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& signatures,
+                              const std::vector<Together>& together, const Priors& priors, Pairs which) {
+  return Weigher(gap, signatures, together, priors, which)(gap.values);
+}
+
+Eigen::MatrixXd isolability(const Gap& gap, const std::vector<Signature>& signatures) {
+  const ReducedSpace space(gap, signatures);
+  const auto size = static_cast<Eigen::Index>(signatures.size());
+  Eigen::MatrixXd distance = Eigen::MatrixXd::Zero(size, size + 1);
+  std::vector<Signature> reduced;
+  for (const auto& signature : signatures) reduced.push_back(space.reduced(signature));
+  for (Eigen::Index a = 0; a < size; ++a) {
+    const auto& signature = signatures[static_cast<std::size_t>(a)];
+    const Eigen::VectorXd here = reduced[static_cast<std::size_t>(a)].at(signature.scale);
+    distance(a, size) = here.squaredNorm();
+    for (Eigen::Index b = 0; b < size; ++b) {
+      if (a == b) continue;
+      distance(a, b) = distance(a, size);
+      const Signature& other = reduced[static_cast<std::size_t>(b)];
+      for (int k = 0; k < kCells; ++k) {
+        const double theta = other.lowest + (other.highest - other.lowest) * (k + 0.5) / kCells;
+        distance(a, b) = std::min(distance(a, b), (here - other.at(theta)).squaredNorm());
+      }
+    }
+  }
+  return distance;
+}
+
+}  // namespace pendular::diagnosis

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diagnosis/bank/signature.h"
+
+namespace pendular::diagnosis {
+
+/// Prior probabilities: P(none), P(unknown), and how much less a pair is expected than a single effect.
+struct Priors {
+  double none = 0.2, unknown = 0.15, pairs = 0.15;
+  double like_known = 0.5;  ///< of unknown mechanisms: that it does what an effect of the library would
+};
+
+struct Magnitude {
+  double mean = 0.0;  ///< of θ a posteriori
+  std::pair<double, double> interval_90 = {0, 0};
+};
+
+/// An explanation: none, unknown, one effect, or two ("a+b").
+struct Hypothesis {
+  std::string id;
+  double log_evidence = 0.0;
+  double probability = 0.0;
+  std::vector<Magnitude> magnitudes;  ///< one per effect
+  double misfit = 0.0;                ///< Mahalanobis distance squared of what the best magnitudes leave
+};
+
+/// Which pairs are weighed: all, or those of which it is known what they do together.
+enum class Pairs { all, run };
+
+/// Probabilities over none, every effect, every pair of effects, and unknown; most probable first.
+///
+/// Believed inputs float within their uncertainties (their responses are part of the covariance), so that an
+/// effect earns credit only for what they cannot absorb. Features are reduced to the directions that
+/// responses of all effects span beyond the noise; what lies outside counts for all explanations alike but
+/// `unknown`. The likelihood is the multivariate t of Sellentin & Heavens (2016, MNRAS 456, L132). Magnitudes
+/// are integrated over on a grid, finer about its peak; a priori all in the signature's range are alike,
+/// those below its least one aside. A response is known to a share of itself (Signature::error) and to
+/// Response::draws, at 0.4 to 2.5 times its standard deviations, and two responses are taken to add to 0.15
+/// of their geometric mean; to half of that where they were run together.
+///
+/// `unknown` is something beside what is known: none or a single effect leaves a residual 1.5, 2.5, 4 or 7
+/// times as large as noise does, within the span, outside it, or both; or (Priors::like_known) something that
+/// does what a known effect would do.
+std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& signatures,
+                              const std::vector<Together>& together = {}, const Priors& priors = {},
+                              Pairs pairs = Pairs::all);
+
+/// Squared distance, in units of the noise, from each signature at its scale to the nearest that another can
+/// make with any magnitude: below nine the two cannot be told apart. The last column is the distance from no
+/// effect: what is below nine there cannot be seen.
+Eigen::MatrixXd isolability(const Gap& gap, const std::vector<Signature>& signatures);
+
+}  // namespace pendular::diagnosis

@@ -1,0 +1,276 @@
+#include "diagnosis/inference/judgement.h"
+
+#include <fmt/format.h>
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/quantity.h"
+#include "base/random.h"
+#include "diagnosis/inference/reduced_space.h"
+#include "diagnosis/words.h"
+#include "effects/list.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr int kToys = 4000;
+constexpr double kWithPairs = 10.0;  // an effect may have so many times more in pairs and still be excluded
+
+Eigen::MatrixXd whole_covariance(const Gap& gap) {
+  return gap.covariance + gap.believed * gap.believed.transpose();
+}
+
+const Signature* signature_of(const Comparison& comparison, const std::string& id) {
+  for (const auto& signature : comparison.signatures)
+    if (signature.id == id) return &signature;
+  return nullptr;
+}
+
+/// What magnitudes leave of the gap.
+Eigen::VectorXd left_by(const Comparison& comparison, const Changes& changes) {
+  Eigen::VectorXd left = comparison.gap.values;
+  for (const auto& [id, theta] : changes)
+    if (const Signature* signature = signature_of(comparison, id)) left -= signature->at(theta);
+  return left;
+}
+
+/// The feature that a residual leaves farthest off, in words.
+std::string worst_of(const Comparison& landmarks, const Eigen::VectorXd& left) {
+  const Eigen::MatrixXd covariance = whole_covariance(landmarks.gap);
+  const Eigen::VectorXd z = left.cwiseQuotient(covariance.diagonal().cwiseSqrt());
+  Eigen::Index at = 0;
+  const double most = z.cwiseAbs().maxCoeff(&at);
+  const Feature& feature = landmarks.observed.features[static_cast<std::size_t>(at)];
+  return fmt::format("{} is {:.1f} sigma off", in_words(feature), most);
+}
+
+/// Probability of a misfit at least as large by noise alone: that of the multivariate t.
+double goodness_of(double misfit, Eigen::Index features, double freedom) {
+  int larger = 0;
+  for (std::uint64_t toy = 0; toy < kToys; ++toy) {
+    double square = 0.0;
+    for (Eigen::Index k = 0; k < features; ++k)
+      square += std::pow(random_normal(toy, static_cast<std::uint64_t>(k)), 2);
+    // Chi-squared of many degrees of freedom, by Wilson and Hilferty.
+    double scale = 1.0;
+    if (freedom > 0.0) {
+      const double nu = freedom, v = 2.0 / (9.0 * nu);
+      scale = std::max(1e-3, std::pow(1.0 - v + std::sqrt(v) * random_normal(toy, 1u << 20), 3));
+    }
+    larger += square / scale >= misfit;
+  }
+  return static_cast<double>(larger) / kToys;
+}
+
+/// What naming by the least misfit would say: none where the gap is within the noise.
+std::string nearest_signature(const std::vector<Hypothesis>& hypotheses, Eigen::Index features) {
+  const Hypothesis* nearest = nullptr;
+  for (const auto& h : hypotheses) {
+    if (h.id == "none" && h.misfit <= static_cast<double>(features)) return h.id;
+    if (h.magnitudes.size() == 1 && (!nearest || h.misfit < nearest->misfit)) nearest = &h;
+  }
+  return nearest ? nearest->id : "none";
+}
+
+/// Probability of everything that holds an effect.
+double marginal(const std::vector<Hypothesis>& hypotheses, const std::string& effect) {
+  double sum = 0.0;
+  for (const auto& h : hypotheses) {
+    const auto ids = effects_in(h.id);
+    if (std::find(ids.begin(), ids.end(), effect) != ids.end()) sum += h.probability;
+  }
+  return sum;
+}
+
+/// Intervals that a correction has widened do not go beyond what effects can be.
+std::vector<Hypothesis> within_range(std::vector<Hypothesis> hypotheses) {
+  for (auto& h : hypotheses) {
+    const auto ids = effects_in(h.id);
+    for (std::size_t k = 0; k < h.magnitudes.size(); ++k) {
+      const effects::Effect& effect = effects::find_effect(ids[k], "diagnosis");
+      auto& [low, high] = h.magnitudes[k].interval_90;
+      low = std::clamp(low, effect.lowest, effect.highest);
+      high = std::clamp(high, effect.lowest, effect.highest);
+    }
+  }
+  return hypotheses;
+}
+
+/// Why a single effect is out of the question.
+std::string why_excluded(const Problem& problem, const Hypothesis& h, double misfit_of_none, double visible,
+                         const Rules& rules) {
+  const Signature& signature = *signature_of(problem.readings, h.id);
+  if (visible < rules.separable) return "these observations would hardly show it at any usual magnitude";
+  if (misfit_of_none - h.misfit < 1.0) {
+    const std::string both = signature.lowest < 0.0 ? "at either sign it" : "it";
+    return fmt::format("{} moves the features away from what was observed, or not at all; {}", both,
+                       worst_of(problem.landmarks, problem.landmarks.gap.values));
+  }
+  const double theta = h.magnitudes.front().mean;
+  const std::string unit = effects::find_effect(h.id, "diagnosis").unit;
+  return fmt::format("at its best magnitude, {}, {}", quantity(theta, h.magnitudes.front().interval_90, unit),
+                     worst_of(problem.landmarks, left_by(problem.landmarks, {{h.id, theta}})));
+}
+
+/// What is unknown may do to a curve what a known effect does, but hardly to thousands of displacements.
+Priors priors_of(const Comparison& readings, const Rules& rules) {
+  Priors priors = rules.priors;
+  if (std::find(readings.inputs.begin(), readings.inputs.end(), kFieldError) != readings.inputs.end())
+    priors.like_known = rules.like_known_in_fields;
+  return priors;
+}
+
+void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hypotheses, const Rules& rules,
+                      const BankPlan& plan, Diagnosis& diagnosis) {
+  double misfit_of_none = 0.0;
+  for (const auto& h : hypotheses)
+    if (h.id == "none") misfit_of_none = h.misfit;
+  const double features = static_cast<double>(problem.readings.observed.features.size());
+  for (const auto& h : hypotheses) {
+    Explanation e{h.id, h.probability, h.magnitudes, {}, h.misfit / features};
+    const auto ids = effects_in(h.id);
+    for (const auto& id : ids) e.units.push_back(effects::find_effect(id, "diagnosis").unit);
+    if (ids.size() == 1 && h.probability < rules.excluded &&
+        marginal(hypotheses, h.id) < kWithPairs * rules.excluded) {
+      const auto row =
+          std::find(diagnosis.effects.begin(), diagnosis.effects.end(), h.id) - diagnosis.effects.begin();
+      const double visible = diagnosis.separation(row, diagnosis.separation.cols() - 1);
+      e.reason = why_excluded(problem, h, misfit_of_none, visible, rules);
+      e.excluded = visible >= rules.separable;
+    }
+    diagnosis.explanations.push_back(std::move(e));
+  }
+  for (const auto& [id, why] : plan.absent) {
+    Explanation e{id, 0.0, {Magnitude{}}, {effects::find_effect(id, "diagnosis").unit}, 0.0, true, why};
+    diagnosis.explanations.push_back(std::move(e));
+  }
+}
+
+void set_unseen(const std::vector<Hypothesis>& hypotheses, Diagnosis& diagnosis) {
+  const Correction& correction = diagnosis.promise.correction;
+  const auto& set = diagnosis.ambiguity_set;
+  for (const auto& h : hypotheses)
+    if (correction.unseen.contains(h.id) && std::find(set.begin(), set.end(), h.id) == set.end()) {
+      const effects::Effect& effect = effects::find_effect(h.id, "diagnosis");
+      const double largest = std::max(std::fabs(effect.lowest), std::fabs(effect.highest));
+      diagnosis.unseen.push_back(
+          {h.id, effect.unit, std::min(largest, upper_limit(h.magnitudes.front(), correction))});
+    }
+}
+
+void set_groups(const Problem& problem, const Experiment& experiment, Diagnosis& diagnosis) {
+  std::vector<std::string> singles;
+  for (const auto& id : diagnosis.ambiguity_set)
+    for (const auto& effect : effects_in(id))
+      if (std::find(singles.begin(), singles.end(), effect) == singles.end()) singles.push_back(effect);
+  for (const auto& effect : singles)
+    for (std::size_t index = 0; index < experiment.observations.size(); ++index) {
+      const auto features = features_from(problem.readings, {index});
+      if (features.empty()) continue;
+      const Signature signature = part_of({*signature_of(problem.readings, effect)}, features).front();
+      const auto found = weigh(part_of(problem.readings.gap, features), {signature});
+      for (const auto& h : found)
+        if (h.id == effect)
+          diagnosis.groups.push_back({effect, experiment.observations[index].name, h.magnitudes.front()});
+    }
+}
+
+/// Posterior of the believed inputs once the best explanation is taken off the gap.
+void set_pulls(const Comparison& readings, const Changes& best, const Experiment& experiment,
+               Diagnosis& diagnosis) {
+  const Gap& gap = readings.gap;
+  const Eigen::MatrixXd covariance = whole_covariance(gap);
+  const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+  const Eigen::VectorXd pull = gap.believed.transpose() * factor.solve(left_by(readings, best));
+  const Eigen::MatrixXd known = gap.believed.transpose() * factor.solve(gap.believed);
+  const Eigen::VectorXd noise = gap.covariance.diagonal().cwiseSqrt();
+  const auto sds = floating_inputs(experiment);
+  for (std::size_t c = 0; c < readings.inputs.size(); ++c) {
+    if (readings.inputs[c].ends_with(kCurvature)) continue;
+    const auto at = static_cast<Eigen::Index>(c);
+    const auto stated = sds.find(readings.inputs[c]);
+    Pull one{readings.inputs[c], stated == sds.end() ? 0.0 : stated->second, pull[at],
+             std::sqrt(std::max(0.0, 1.0 - known(at, at)))};
+    one.impact =
+        gap.believed.col(at).cwiseQuotient(noise).norm() / std::sqrt(static_cast<double>(noise.size()));
+    diagnosis.pulls.push_back(one);
+  }
+}
+
+void set_signatures(const Problem& problem, Diagnosis& diagnosis) {
+  const Comparison& landmarks = problem.landmarks;
+  const Eigen::VectorXd noise = whole_covariance(landmarks.gap).diagonal().cwiseSqrt();
+  diagnosis.signatures =
+      Eigen::MatrixXd(static_cast<Eigen::Index>(landmarks.signatures.size()), noise.size());
+  for (std::size_t e = 0; e < landmarks.signatures.size(); ++e) {
+    const Signature& signature = landmarks.signatures[e];
+    diagnosis.effects.push_back(signature.id);
+    diagnosis.signatures.row(static_cast<Eigen::Index>(e)) =
+        signature.at(signature.scale).cwiseQuotient(noise).transpose();
+  }
+  diagnosis.separation = isolability(problem.readings.gap, problem.readings.signatures);
+}
+
+}  // namespace
+
+std::vector<std::string> effects_in(const std::string& id) {
+  if (id == "none" || id == "unknown") return {};
+  const auto plus = id.find('+');
+  if (plus == std::string::npos) return {id};
+  return {id.substr(0, plus), id.substr(plus + 1)};
+}
+
+Changes fitted_changes(const Problem& problem, const std::vector<std::string>& ids,
+                       const std::vector<std::size_t>& observations) {
+  const auto features = features_from(problem.readings, observations);
+  std::vector<Signature> signatures;
+  for (const auto& id : ids) signatures.push_back(*signature_of(problem.readings, id));
+  if (signatures.empty() || features.empty()) return {};
+  std::string name = ids.front();
+  for (std::size_t k = 1; k < ids.size(); ++k) name += "+" + ids[k];
+  Changes changes;
+  for (const auto& h : weigh(part_of(problem.readings.gap, features), part_of(signatures, features),
+                             part_of(problem.readings.together, features))) {
+    if (h.id != name) continue;
+    for (std::size_t k = 0; k < ids.size(); ++k) changes[ids[k]] = h.magnitudes[k].mean;
+  }
+  return changes;
+}
+
+void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, const Experiment& experiment,
+           Diagnosis& diagnosis) {
+  const Comparison &landmarks = problem.landmarks, &readings = problem.readings;
+  std::vector<double> simulated;
+  for (std::size_t f = 0; f < landmarks.observed.features.size(); ++f) {
+    const double value = landmarks.simulated[static_cast<Eigen::Index>(f)];
+    simulated.push_back(landmarks.observed.features[f].logarithm ? std::exp(value) : value);
+  }
+  diagnosis.gap = gap_table(landmarks.observed.features, simulated, landmarks.gap);
+  diagnosis.noise = landmarks.noise;
+  set_signatures(problem, diagnosis);
+  const Priors priors = priors_of(readings, rules);
+  diagnosis.promise =
+      promise_of(problem.features ? replay(experiment, plan, *problem.features, priors, rules.draws)
+                                  : std::vector<Replayed>{},
+                 rules.confidence);
+  const auto hypotheses =
+      corrected(weigh(readings.gap, readings.signatures, readings.together, priors, Pairs::run),
+                diagnosis.promise.correction);
+  set_explanations(problem, within_range(hypotheses), rules, plan, diagnosis);
+  const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();
+  diagnosis.nearest_signature = nearest_signature(hypotheses, directions);
+  const Hypothesis& best = hypotheses.front();
+  diagnosis.goodness = goodness_of(best.misfit, directions, readings.gap.freedom);
+  const AmbiguitySet set = set_of(hypotheses, diagnosis.promise.correction);
+  diagnosis.ambiguity_set = set.ids, diagnosis.set_probability = set.probability;
+  set_unseen(hypotheses, diagnosis);
+  set_groups(problem, experiment, diagnosis);
+  std::vector<std::size_t> all(experiment.observations.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  set_pulls(readings, fitted_changes(problem, effects_in(best.id), all), experiment, diagnosis);
+}
+
+}  // namespace pendular::diagnosis

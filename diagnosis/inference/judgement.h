@@ -1,0 +1,32 @@
+#pragma once
+
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/inference/problem.h"
+
+namespace pendular::diagnosis {
+
+/// Thresholds and priors, frozen on the development split (docs/blind.md).
+struct Rules {
+  Priors priors;
+  double like_known_in_fields = 0.05;  ///< Priors::like_known where displacements were measured: hardly
+  double confidence = 0.95;            ///< with which a set holds the truth, as the replay shows it
+  double excluded = 0.01;              ///< of an effect by itself, below which it is excluded
+  double separable = 9.0;              ///< Δ² from none below which an effect is hardly shown
+  int draws = 1;                       ///< of each run that is replayed
+};
+
+/// Weighs every explanation of the gap and fills everything of a diagnosis that needs no further runs:
+/// gap, noise, promise, explanations, ambiguity set, goodness, signatures, separation, groups, pulls. What it
+/// promises is learnt from a replay where the problem has the features of its bank.
+void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, const Experiment& experiment,
+           Diagnosis& diagnosis);
+
+/// Best magnitudes of a hypothesis for the readings of some observations: a single effect or a pair by the
+/// ids in `ids`. Means a posteriori; empty for none.
+Changes fitted_changes(const Problem& problem, const std::vector<std::string>& ids,
+                       const std::vector<std::size_t>& observations);
+
+/// "a+b" → a, b; nothing for "none" and "unknown".
+std::vector<std::string> effects_in(const std::string& id);
+
+}  // namespace pendular::diagnosis

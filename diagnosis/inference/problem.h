@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/inference/comparison.h"
+
+namespace pendular::diagnosis {
+
+/// What is to be explained, and by what.
+struct Problem {
+  Comparison landmarks;                       ///< for words, figures and repair
+  Comparison readings;                        ///< for the evidence
+  std::optional<BankFeatures> features = {};  ///< that the readings were learnt from
+  std::vector<std::string> warnings = {};     ///< features that could not be used, and why
+};
+
+/// `tests`: of every point of the plan.
+Problem problem_of(const Experiment& experiment, const BankPlan& plan,
+                   const std::vector<SimulatedTests>& tests);
+
+}  // namespace pendular::diagnosis

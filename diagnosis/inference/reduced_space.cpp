@@ -1,0 +1,150 @@
+#include "diagnosis/inference/reduced_space.h"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr double kFreedom = 100.0;  // most that the likelihood trusts a covariance with
+constexpr Eigen::Index kMostDirections = 45;
+constexpr double kLeastDirection = 0.5;  // singular value, in units of the noise
+constexpr double kLongest = 8.0;         // a response counts no more than this for the directions
+constexpr int kSpanned = 3;              // magnitudes of each sign whose responses span
+constexpr double kFresh = 1.3;           // squares outside, of an observation over those of runs learnt from
+constexpr Eigen::Index kLeastRows =
+    3;  // from which the variance in directions that none of them shows is learnt
+constexpr std::size_t kLeastKnown = 8;  // runs from which what is outside is learnt
+
+/// Variance per direction of what each row has outside the span of the others.
+double in_fresh_directions(const Eigen::MatrixXd& rows) {
+  const Eigen::Index n = rows.rows();
+  if (rows.cols() <= n) return 0.0;
+  double sum = 0.0;
+  for (Eigen::Index r = 0; r < n; ++r) {
+    Eigen::MatrixXd others(rows.cols(), n - 1);
+    for (Eigen::Index k = 0, at = 0; k < n; ++k)
+      if (k != r) others.col(at++) = rows.row(k).transpose();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(others);
+    const Eigen::VectorXd turned = qr.householderQ().transpose() * rows.row(r).transpose();
+    sum += turned.tail(rows.cols() - n + 1).squaredNorm();
+  }
+  return sum / static_cast<double>(n * (rows.cols() - n + 1));
+}
+
+}  // namespace
+
+ReducedSpace::ReducedSpace(const Gap& gap, const std::vector<Signature>& signatures)
+    : factor_(gap.covariance + gap.believed * gap.believed.transpose()),
+      freedom_(gap.freedom > 0.0 ? std::min(gap.freedom, kFreedom) : 0.0) {
+  find_directions(signatures);
+  dimensions_ = static_cast<double>(factor_.rows() - size());
+  learn_outside(gap.outside);
+  log_chi_ = 0.5 * outside_freedom_ * M_LN2 + std::lgamma(0.5 * outside_freedom_);
+}
+
+void ReducedSpace::reduce(Response& response) const {
+  for (auto& power : response.powers) power = reduced(power);
+  if (response.draws.size() == 0) return;
+  const Eigen::MatrixXd half = factor_.matrixL().solve(response.draws);
+  const Eigen::MatrixXd whole = factor_.matrixL().solve(half.transpose());
+  response.draws = directions_.transpose() * whole * directions_;
+  response.drawn_outside = std::max(0.0, whole.trace() - response.draws.trace());
+  if (response.missed.rows() < kLeastRows) return;
+  Eigen::MatrixXd rows(response.missed.rows(), size());
+  for (Eigen::Index r = 0; r < rows.rows(); ++r)
+    rows.row(r) = reduced(response.missed.row(r).transpose()).transpose();
+  response.draws.diagonal().array() += in_fresh_directions(rows);
+  response.missed = {};
+}
+
+Signature ReducedSpace::reduced(Signature signature) const {
+  reduce(signature);
+  if (signature.below) reduce(*signature.below);
+  return signature;
+}
+
+double ReducedSpace::outside(const Eigen::VectorXd& v) const {
+  return std::max(0.0, whiten(v).squaredNorm() - reduced(v).squaredNorm());
+}
+
+Prediction ReducedSpace::predict(const Eigen::VectorXd& response, const Errors& errors) const {
+  Eigen::MatrixXd covariance = errors.draws;
+  covariance.diagonal() += errors.shares;
+  covariance.diagonal().array() += 1.0;
+  Prediction prediction{response, Eigen::LLT<Eigen::MatrixXd>(covariance), freedom_};
+  // Welch and Satterthwaite: noise and draws are known by different numbers of runs.
+  const double share = errors.draws.trace() / covariance.trace();
+  if (freedom_ > 0.0 && errors.freedom > 0.0)
+    prediction.freedom = 1.0 / (share * share / errors.freedom + (1.0 - share) * (1.0 - share) / freedom_);
+  const double p = static_cast<double>(size()), nu = prediction.freedom;
+  prediction.log_volume =
+      prediction.factor.matrixLLT().diagonal().array().log().sum() +
+      (nu <= 0.0 ? 0.5 * p * std::log(2.0 * M_PI)
+                 : 0.5 * p * std::log(M_PI * nu) + std::lgamma(0.5 * nu) - std::lgamma(0.5 * (nu + p)));
+  if (dimensions_ > 0.0)
+    prediction.widening = std::sqrt(1.0 + errors.outside / (outside_scale_ * outside_freedom_));
+  return prediction;
+}
+
+Fit ReducedSpace::fit(const ReducedGap& gap, const Prediction& prediction) const {
+  Fit fit;
+  fit.misfit = prediction.factor.matrixL().solve(gap.within - prediction.response).squaredNorm();
+  fit.log_likelihood = widened(gap, prediction, fit.misfit, 1.0, 1.0);
+  return fit;
+}
+
+double ReducedSpace::widened(const ReducedGap& gap, const Prediction& prediction, double misfit,
+                             double within, double outside) const {
+  const double p = static_cast<double>(size()), nu = prediction.freedom, squared = misfit / (within * within);
+  return -prediction.log_volume - p * std::log(within) -
+         (nu <= 0.0 ? 0.5 * squared : 0.5 * (nu + p) * std::log1p(squared / nu)) +
+         log_outside(gap.outside, outside * prediction.widening);
+}
+
+void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {
+  std::vector<Eigen::VectorXd> columns;
+  for (const auto& signature : signatures)
+    for (const double end : {signature.lowest, signature.highest})
+      for (int k = 1; k <= kSpanned && end != 0.0; ++k) {
+        const Eigen::VectorXd response = whiten(signature.at(end * k / kSpanned));
+        const double length = response.norm();
+        if (length > 0.0) columns.push_back(response * std::min(1.0, kLongest / length));
+      }
+  const Eigen::Index features = factor_.rows();
+  directions_ = Eigen::MatrixXd::Identity(features, features);
+  if (columns.empty() || features <= 2) return;
+  Eigen::MatrixXd all(features, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) all.col(static_cast<Eigen::Index>(k)) = columns[k];
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(all, Eigen::ComputeThinU);
+  Eigen::Index kept = 0;
+  while (kept < std::min(kMostDirections, svd.singularValues().size()) &&
+         svd.singularValues()[kept] > kLeastDirection)
+    ++kept;
+  if (kept > 0) directions_ = svd.matrixU().leftCols(kept);
+}
+
+// What known runs leave outside is a multiple of χ², of their mean and variance; without runs, χ² itself.
+void ReducedSpace::learn_outside(const std::vector<double>& known) {
+  outside_freedom_ = dimensions_;
+  if (known.size() < kLeastKnown || dimensions_ <= 0.0) return;
+  const double n = static_cast<double>(known.size());
+  double mean = 0.0, square = 0.0;
+  for (double one : known) mean += one / n;
+  for (double one : known) square += (one - mean) * (one - mean) / (n - 1.0);
+  if (!(mean > 0.0 && square > 0.0)) return;
+  outside_scale_ = kFresh * square / (2.0 * mean);
+  outside_freedom_ = 2.0 * mean * mean / square;
+}
+
+double ReducedSpace::log_outside(double outside, double factor) const {
+  if (dimensions_ <= 0.0) return 0.0;
+  const double half = 0.5 * outside_freedom_, scale = outside_scale_ * factor * factor,
+               x = std::max(1e-9, outside / scale);
+  return (half - 1.0) * std::log(x) - 0.5 * x - log_chi_ - std::log(scale);
+}
+
+}  // namespace pendular::diagnosis

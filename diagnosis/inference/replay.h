@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/bank/design.h"
+#include "diagnosis/inference/comparison.h"
+
+namespace pendular::diagnosis {
+
+/// A run of the bank, diagnosed as if it had been measured.
+struct Replayed {
+  int member = 0;
+  Changes truth;                 ///< its effects
+  std::vector<Hypothesis> said;  ///< of it by a bank that lacks its member; most probable first
+};
+
+/// Every run of the bank that goes all the way is an experiment of known truth: its own errors of measurement
+/// and of the simulation, and wrong beliefs, are drawn by their covariances, seeded by its place; its member
+/// is left out of all that is learnt. Members are replayed in parallel; what comes out does not depend on the
+/// number of threads. `draws`: of each run with an effect; of those without three times as many.
+std::vector<Replayed> replay(const Experiment& experiment, const BankPlan& plan, const BankFeatures& features,
+                             const Priors& priors, int draws);
+
+}  // namespace pendular::diagnosis

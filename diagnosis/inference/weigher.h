@@ -1,0 +1,42 @@
+#pragma once
+
+#include <deque>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "diagnosis/inference/evidence.h"
+#include "diagnosis/inference/magnitude_grid.h"
+#include "diagnosis/inference/reduced_space.h"
+
+namespace pendular::diagnosis {
+
+/// weigh() for many gaps that have the same noise and the same responses: what explanations say is worked out
+/// once. `gap.values` are not read. May be called from several threads.
+class Weigher {
+ public:
+  Weigher(const Gap& gap, const std::vector<Signature>& signatures,
+          const std::vector<Together>& together = {}, const Priors& priors = {}, Pairs pairs = Pairs::all);
+  Weigher(const Weigher&) = delete;  // its parts refer to its space
+  Weigher& operator=(const Weigher&) = delete;
+
+  /// `values`: observed less simulated, as Gap::values. Magnitudes of single effects whose evidence is less
+  /// than e^−negligible of the best one's are told coarsely.
+  std::vector<Hypothesis> operator()(const Eigen::VectorXd& values,
+                                     double negligible = std::numeric_limits<double>::infinity()) const;
+
+  const ReducedSpace& space() const { return space_; }
+
+ private:
+  struct Pair {
+    std::size_t a, b;
+    std::optional<Together> run;
+  };
+  ReducedSpace space_;
+  Priors priors_;
+  std::vector<Signature> reduced_;
+  std::deque<MagnitudeGrid> singles_;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace pendular::diagnosis

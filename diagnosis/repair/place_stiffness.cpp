@@ -1,0 +1,247 @@
+#include "diagnosis/repair/place_stiffness.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dem_core/linear/joints.h"
+#include "dem_core/linear/stiffness_sensitivity.h"
+#include "packing/bridges.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+constexpr double kSpacing = 1.6, kShare = 0.7, kCorrelation = 1.5;  // of regions, mean diameters
+constexpr std::size_t kMostRegions = 200;
+constexpr double kNeighbours =
+    0.064;                           // gap of beads whose parting weighs scans against simulation, diameters
+constexpr double kTolerance = 1e-4;  // of linear solves
+constexpr double kFreedom = 4.0;     // of the t distribution of a bead's difference
+constexpr int kRounds = 6;           // of its weights
+constexpr double kSizes[] = {0.05, 0.1, 0.2, 0.4, 0.8, 1.6};  // of changes, before they are seen
+constexpr double kFalsePlaces = 0.05;
+
+/// Beads far from each other: each next one is the farthest from those before.
+std::vector<std::size_t> centres_of_regions(const MovedBeads& beads) {
+  std::vector<std::size_t> centres = {0};
+  std::vector<double> away(beads.size(), std::numeric_limits<double>::infinity());
+  while (centres.size() < kMostRegions) {
+    for (std::size_t k = 0; k < away.size(); ++k)
+      away[k] = std::min(away[k], (beads.rest[k] - beads.rest[centres.back()]).norm());
+    const auto farthest = std::max_element(away.begin(), away.end());
+    if (*farthest < kSpacing * beads.diameter) break;
+    centres.push_back(static_cast<std::size_t>(farthest - away.begin()));
+  }
+  return centres;
+}
+
+/// Shares of each place in each region: Gaussians that sum to one. Wider where regions are farther apart.
+Eigen::MatrixXd shares_of(const std::vector<Vec3>& places, const MovedBeads& beads,
+                          const std::vector<std::size_t>& centres) {
+  double apart = 0.0;
+  for (std::size_t a : centres) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t b : centres)
+      if (a != b) nearest = std::min(nearest, (beads.rest[a] - beads.rest[b]).norm());
+    apart += nearest / static_cast<double>(centres.size());
+  }
+  const double width = kShare * std::max(1.0, apart / (kSpacing * beads.diameter)) * beads.diameter;
+  Eigen::MatrixXd shares(static_cast<Eigen::Index>(places.size()), static_cast<Eigen::Index>(centres.size()));
+  for (Eigen::Index k = 0; k < shares.rows(); ++k) {
+    for (Eigen::Index r = 0; r < shares.cols(); ++r)
+      shares(k, r) = -0.5 *
+                     (places[static_cast<std::size_t>(k)] - beads.rest[centres[static_cast<std::size_t>(r)]])
+                         .squaredNorm() /
+                     (width * width);
+    shares.row(k) = (shares.row(k).array() - shares.row(k).maxCoeff()).exp();
+    shares.row(k) /= shares.row(k).sum();
+  }
+  return shares;
+}
+
+Eigen::MatrixXd prior_of(const MovedBeads& beads, const std::vector<std::size_t>& centres) {
+  const auto count = static_cast<Eigen::Index>(centres.size());
+  Eigen::MatrixXd prior(count, count);
+  for (Eigen::Index a = 0; a < count; ++a)
+    for (Eigen::Index b = 0; b < count; ++b)
+      prior(a, b) = std::exp(-0.5 *
+                             (beads.rest[centres[static_cast<std::size_t>(a)]] -
+                              beads.rest[centres[static_cast<std::size_t>(b)]])
+                                 .squaredNorm() /
+                             std::pow(kCorrelation * beads.diameter, 2));
+  prior.diagonal().array() += 1e-3;
+  return prior;
+}
+
+/// The share of the measured difference that is not noise, by how neighbours part in it.
+double weight_of_scans(const MovedBeads& beads, const std::vector<Vec3>& difference) {
+  std::vector<Bead> points(beads.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+    points[k].centre = beads.rest[k], points[k].diameter = beads.diameter;
+  double square = 0.0, count = 0.0;
+  for (const auto& pair : candidate_bridges(points, kNeighbours * beads.diameter)) {
+    square += (difference[static_cast<std::size_t>(pair.i)] - difference[static_cast<std::size_t>(pair.j)])
+                  .squaredNorm();
+    count += 3.0;
+  }
+  const double noise = 2.0 * beads.sigma * beads.sigma * count;
+  return square > noise ? 1.0 - noise / square : 0.0;
+}
+
+/// Displacements of all nodes in the frame of the simulation, for closures. Beads that were not followed move
+/// as the nearest one does.
+NodeVector seen_motion(const Simulation& specimen, double travel, const std::vector<int>& bead,
+                       const std::vector<Vec3>& moved, const MovedBeads& beads) {
+  NodeVector x = NodeVector::Zero(6 * static_cast<Eigen::Index>(specimen.beads.size() + 2));
+  std::vector<int> source(specimen.beads.size(), -1);
+  for (std::size_t k = 0; k < bead.size(); ++k)
+    source[static_cast<std::size_t>(bead[k])] = static_cast<int>(k);
+  for (std::size_t n = 0; n < source.size(); ++n) {
+    std::size_t from = static_cast<std::size_t>(std::max(source[n], 0));
+    if (source[n] < 0)
+      for (std::size_t k = 0; k < bead.size(); ++k)
+        if ((beads.rest[k] - specimen.beads.position[n]).norm() <
+            (beads.rest[from] - specimen.beads.position[n]).norm())
+          from = k;
+    x.segment<3>(6 * static_cast<Eigen::Index>(n)) = moved[from];
+  }
+  x[6 * static_cast<Eigen::Index>(source.size()) + 2] = travel;
+  return x;
+}
+
+/// Takes shift, rotation and change of scale off the columns.
+void remove_similarity(const std::vector<Vec3>& rest, double length, Eigen::MatrixXd& columns) {
+  Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(columns.rows(), 7);
+  for (std::size_t k = 0; k < rest.size(); ++k)
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto row = static_cast<Eigen::Index>(3 * k);
+      modes(row + axis, axis) = 1.0;
+      modes.block<3, 1>(row, 3 + axis) = Vec3::Unit(axis).cross(rest[k]) / length;
+      modes(row + axis, 6) = rest[k][axis] / length;
+    }
+  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(modes).householderQ() *
+                            Eigen::MatrixXd::Identity(columns.rows(), 7);
+  columns -= q * (q.transpose() * columns);
+}
+
+Eigen::VectorXd rows_of(const std::vector<Vec3>& field) {
+  Eigen::VectorXd rows(static_cast<Eigen::Index>(3 * field.size()));
+  for (std::size_t k = 0; k < field.size(); ++k) rows.segment<3>(static_cast<Eigen::Index>(3 * k)) = field[k];
+  return rows;
+}
+
+/// Logarithm of the determinant of a positive matrix.
+double log_determinant(const Eigen::LLT<Eigen::MatrixXd>& llt) {
+  return 2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
+}
+
+/// Standard errors of the beads' changes.
+Eigen::VectorXd errors_of(const Eigen::MatrixXd& shares, const RegionFit& fit) {
+  return (shares * fit.covariance).cwiseProduct(shares).rowwise().sum().cwiseSqrt();
+}
+
+}  // namespace
+
+RegionFit fit_regions(const Eigen::MatrixXd& sensitivity, const Eigen::MatrixXd& prior,
+                      const Eigen::VectorXd& variance, const Eigen::VectorXd& difference) {
+  const Eigen::Index rows = difference.size(), beads = rows / 3;
+  const Eigen::MatrixXd precision = prior.inverse();
+  const double prior_log = log_determinant(prior.llt()), regions = static_cast<double>(prior.rows());
+  Eigen::VectorXd weight = variance.cwiseInverse();
+  RegionFit best;
+  for (int round = 0; round < kRounds; ++round) {
+    const Eigen::MatrixXd h = sensitivity.transpose() * weight.asDiagonal() * sensitivity;
+    const Eigen::VectorXd load = sensitivity.transpose() * weight.cwiseProduct(difference);
+    double most = -std::numeric_limits<double>::infinity();
+    for (double size : kSizes) {
+      const Eigen::MatrixXd p = precision / (size * size);
+      const Eigen::LLT<Eigen::MatrixXd> first(h + p);
+      Eigen::VectorXd change = first.solve(load);
+      const double freedom = static_cast<double>(rows) - first.solve(h).trace();
+      const auto misfit = [&] { return (difference - sensitivity * change).cwiseAbs2().dot(weight); };
+      const double scale = std::max(1.0, misfit() / freedom);
+      const Eigen::LLT<Eigen::MatrixXd> llt(h / scale + p);
+      change = llt.solve(load / scale);
+      const double evidence = -0.5 * (misfit() / scale + change.dot(p * change)) -
+                              0.5 * static_cast<double>(rows) * std::log(scale) -
+                              0.5 * (log_determinant(llt) + prior_log + 2.0 * regions * std::log(size));
+      if (evidence <= most) continue;
+      most = evidence;
+      const Eigen::MatrixXd inverse = llt.solve(Eigen::MatrixXd::Identity(h.rows(), h.cols()));
+      best = {change, inverse * (h / scale) * inverse, std::sqrt(scale)};
+    }
+    const Eigen::VectorXd left = difference - sensitivity * best.change;
+    for (Eigen::Index k = 0; k < beads; ++k) {
+      double square = 0.0;
+      for (Eigen::Index row = 3 * k; row < 3 * k + 3; ++row)
+        square += left[row] * left[row] / (variance[row] * best.left * best.left);
+      weight.segment<3>(3 * k) =
+          (kFreedom + 3.0) / (kFreedom + square) * variance.segment<3>(3 * k).cwiseInverse();
+    }
+  }
+  return best;
+}
+
+PlaceStiffness place_stiffness(const Simulation& specimen, double strain, const std::vector<int>& bead,
+                               const std::vector<Vec3>& simulated, const MovedBeads& beads) {
+  const auto mean = mean_member(beads);
+  std::vector<Vec3> difference, moved;
+  for (std::size_t k = 0; k < mean.size(); ++k) difference.push_back(beads.measured[k] - mean[k]);
+  const double weight = weight_of_scans(beads, difference), travel = strain * specimen.initial_height;
+  for (std::size_t k = 0; k < mean.size(); ++k) moved.push_back(simulated[k] + weight * difference[k]);
+
+  Simulation listed = specimen;
+  list_pairs(listed, (0.025 + 0.5 * strain) * listed.beads.mean_diameter());
+  const auto joints = joints_of(listed, travel);
+  NodeVector x = seen_motion(listed, travel, bead, moved, beads);
+  const SpringNetwork network = network_of(listed, joints, closures_at(nodes_of(listed), joints, x), true);
+  solve(network, network.pushes(), kTolerance, x);
+
+  const auto centres = centres_of_regions(beads);
+  const Eigen::MatrixXd at_nodes = shares_of(listed.beads.position, beads, centres);
+  Eigen::MatrixXd sensitivity(static_cast<Eigen::Index>(3 * bead.size()), at_nodes.cols());
+  for (Eigen::Index r = 0; r < at_nodes.cols(); ++r) {
+    std::vector<double> of_spring;
+    for (const auto& spring : network.springs())
+      of_spring.push_back(spring.j < network.free_nodes()
+                              ? 0.5 * (at_nodes(spring.i, r) + at_nodes(spring.j, r))
+                              : at_nodes(spring.i, r));
+    const NodeVector change = stiffness_sensitivity(network, x, of_spring, kTolerance);
+    for (std::size_t k = 0; k < bead.size(); ++k)
+      sensitivity.block<3, 1>(static_cast<Eigen::Index>(3 * k), r) = change.segment<3>(6 * bead[k]);
+  }
+  remove_similarity(beads.rest, beads.diameter, sensitivity);
+
+  Eigen::VectorXd variance(sensitivity.rows());
+  const auto of_members = member_variance(beads);
+  for (std::size_t k = 0; k < bead.size(); ++k)
+    variance.segment<3>(static_cast<Eigen::Index>(3 * k))
+        .setConstant(beads.sigma * beads.sigma + of_members[k]);
+  const Eigen::MatrixXd prior = prior_of(beads, centres), shares = shares_of(beads.rest, beads, centres);
+  const RegionFit fit = fit_regions(sensitivity, prior, variance, rows_of(difference));
+  // Members scatter alike from bead to bead, which single beads' variances do not say: what members
+  // themselves come to, taken for the experiment, scales the errors.
+  std::vector<double> maxima;
+  double square = 0.0;
+  for (const auto& null : null_differences(beads, 1)) {
+    const RegionFit of_null = fit_regions(sensitivity, prior, variance, rows_of(null));
+    const Eigen::VectorXd z = (shares * of_null.change).cwiseQuotient(errors_of(shares, of_null));
+    maxima.push_back(z.cwiseAbs().maxCoeff());
+    square += z.squaredNorm() / static_cast<double>(z.size());
+  }
+  const double scale = std::max(1.0, std::sqrt(square / static_cast<double>(maxima.size())));
+
+  PlaceStiffness found;
+  found.regions = static_cast<int>(centres.size());
+  found.left = fit.left;
+  found.threshold = exceeded_by(maxima, kFalsePlaces) / scale;
+  const Eigen::VectorXd change = shares * fit.change;
+  const Eigen::VectorXd sigma = scale * errors_of(shares, fit);
+  found.change.assign(change.data(), change.data() + change.size());
+  found.sigma.assign(sigma.data(), sigma.data() + sigma.size());
+  return found;
+}
+
+}  // namespace pendular::diagnosis

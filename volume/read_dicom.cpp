@@ -1,0 +1,232 @@
+#include "volume/read_dicom.h"
+
+#include "volume/itk_images.h"
+
+#include <itkGDCMImageIO.h>
+#include <itkGDCMSeriesFileNames.h>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "base/interrupt.h"
+#include "base/progress.h"
+#include "volume/image_io.h"
+
+namespace pendular {
+namespace {
+
+constexpr double kMillimetre = 1e-3;
+constexpr rlim_t kEnough = 6, kSpare = 1 << 29;  // memory: times the files, and bytes besides
+constexpr double kUneven = 0.01;                 // of the distance of two slices
+
+bool has_mark(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  char mark[4] = {};
+  return in.seekg(128) && in.read(mark, 4) && std::memcmp(mark, "DICM", 4) == 0;
+}
+
+/// The files of a folder's only series, by position.
+std::vector<fs::path> series_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  guarded(folder, [&] {
+    const auto names = itk::GDCMSeriesFileNames::New();
+    names->SetUseSeriesDetails(true);
+    names->SetDirectory(folder.string());
+    const auto series = names->GetSeriesUIDs();
+    if (series.size() != 1)
+      bad_input("{}: found {} DICOM series, expected one", folder.string(), series.size());
+    for (const auto& name : names->GetFileNames(series.front())) files.emplace_back(name);
+  });
+  return files;
+}
+
+itk::GDCMImageIO::Pointer opened(const fs::path& file) {
+  auto io = itk::GDCMImageIO::New();
+  io->SetFileName(file.string());
+  read_header(*io, file);
+  return io;
+}
+
+Vec3 origin_of(const itk::ImageIOBase& io) {
+  Vec3 origin = Vec3::Zero();
+  for (unsigned axis = 0; axis < std::min(3u, io.GetNumberOfDimensions()); ++axis)
+    origin[axis] = io.GetOrigin(axis);
+  return origin;
+}
+
+std::size_t frames_of(const itk::ImageIOBase& io) {
+  return io.GetNumberOfDimensions() > 2 ? io.GetDimensions(2) : 1;
+}
+
+/// Voxels as they lie in the file, converted.
+template <typename T>
+void convert(const std::vector<char>& raw, itk::IOComponentEnum type, T* target, std::size_t count) {
+  const auto from = [&](auto example) {
+    using Stored = decltype(example);
+    for (std::size_t k = 0; k < count; ++k) {
+      Stored value;
+      std::memcpy(&value, raw.data() + k * sizeof(Stored), sizeof(Stored));
+      target[k] = static_cast<T>(value);
+    }
+  };
+  switch (type) {
+    case itk::IOComponentEnum::UCHAR:
+      return from(std::uint8_t{});
+    case itk::IOComponentEnum::CHAR:
+      return from(std::int8_t{});
+    case itk::IOComponentEnum::USHORT:
+      return from(std::uint16_t{});
+    case itk::IOComponentEnum::SHORT:
+      return from(std::int16_t{});
+    case itk::IOComponentEnum::UINT:
+      return from(std::uint32_t{});
+    case itk::IOComponentEnum::INT:
+      return from(std::int32_t{});
+    case itk::IOComponentEnum::DOUBLE:
+      return from(double{});
+    default:
+      return from(float{});
+  }
+}
+
+Volume::Pixels kept_type(itk::IOComponentEnum type) {
+  if (type == itk::IOComponentEnum::UCHAR) return std::vector<std::uint8_t>();
+  if (type == itk::IOComponentEnum::USHORT) return std::vector<std::uint16_t>();
+  return std::vector<float>();
+}
+
+void read_frames(itk::ImageIOBase& io, const fs::path& file, Volume& volume, std::size_t first_voxel) {
+  const std::size_t count = volume.size[0] * volume.size[1] * frames_of(io);
+  std::vector<char> raw(io.GetImageSizeInBytes());
+  read_pixels(io, file, raw.data());
+  std::visit([&](auto& pixels) { convert(raw, io.GetComponentType(), pixels.data() + first_voxel, count); },
+             volume.pixels);
+}
+
+/// Returns the edges of a voxel over the shortest.
+std::array<double, 3> set_spacing(Volume& volume, const itk::ImageIOBase& first, double between,
+                                  const fs::path& path, const ReadOptions& options) {
+  const std::array<double, 3> edges{first.GetSpacing(0), first.GetSpacing(1),
+                                    between > 0.0 ? between : first.GetSpacing(2)};
+  volume.spacing = options.spacing.value_or(kMillimetre * *std::min_element(edges.begin(), edges.end()));
+  volume.origin = kMillimetre * origin_of(first);
+  check_place(volume, path);
+  return options.spacing ? std::array{1.0, 1.0, 1.0} : over_shortest(edges, path);
+}
+
+Volume read_series(const fs::path& path, const ReadOptions& options) {
+  const auto files = fs::is_directory(path) ? series_in(path) : std::vector{path};
+  Progress progress("reading slices", static_cast<double>(files.size()));
+  const auto first = opened(files.front());
+  Volume volume;
+  volume.pixels = kept_type(first->GetComponentType());
+  volume.size = {first->GetDimensions(0), first->GetDimensions(1),
+                 files.size() > 1 ? files.size() : frames_of(*first)};
+  if (volume.size[2] < 2) bad_input("{}: found one slice, expected a volume", path.string());
+  allocate(volume, path, files.size() * fs::file_size(files.front()));
+  double between = 0.0;
+  Vec3 last = origin_of(*first);
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    stop_if_interrupted();
+    const auto io = k == 0 ? first : opened(files[k]);
+    if (io->GetDimensions(0) != volume.size[0] || io->GetDimensions(1) != volume.size[1] ||
+        io->GetComponentType() != first->GetComponentType() || (files.size() > 1 && frames_of(*io) > 1))
+      bad_input("{}: found a slice of {} x {} or of another type, expected {} x {} as the first",
+                files[k].string(), io->GetDimensions(0), io->GetDimensions(1), volume.size[0],
+                volume.size[1]);
+    const double step = (origin_of(*io) - last).norm();
+    if (k == 1) between = step;
+    if (k > 1 && std::fabs(step - between) > kUneven * between)
+      bad_input("{}: found {:.6g} mm to the slice before it, expected {:.6g} as before (a slice missing?)",
+                files[k].string(), step, between);
+    last = origin_of(*io);
+    read_frames(*io, files[k], volume, k * volume.size[0] * volume.size[1]);
+    progress.update(static_cast<double>(k + 1));
+  }
+  const auto edges = set_spacing(volume, *first, between, path, options);
+  return made_cubic(std::move(volume), edges, path);
+}
+
+/// Addresses in use, bytes.
+rlim_t in_use() {
+  std::ifstream in("/proc/self/statm");
+  rlim_t pages = 0;
+  in >> pages;
+  return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+}
+
+rlim_t bytes_in(const fs::path& path) {
+  if (fs::is_regular_file(path)) return fs::file_size(path);
+  rlim_t sum = 0;
+  for (const auto& entry : fs::directory_iterator(path))
+    if (entry.is_regular_file()) sum += entry.file_size();
+  return sum;
+}
+
+/// Reads in this process, which ends: 0 if all went well, else 1, with what was wrong in `told`.
+[[noreturn]] void read_and_end(const fs::path& path, const ReadOptions& options, int told) {
+  const QuietLibraries quiet;
+  const rlimit no_core = {0, 0}, memory = {in_use() + kEnough * bytes_in(path) + kSpare, RLIM_INFINITY};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+  ::setrlimit(RLIMIT_AS, &memory);
+  try {
+    read_series(path, options);
+    ::_exit(0);
+  } catch (const Error& error) {
+    const std::string words = error.what();
+    [[maybe_unused]] const auto written = ::write(told, words.data(), words.size());
+  } catch (...) {
+  }
+  ::_exit(1);
+}
+
+/// The library ends the process, or asks for any amount of memory, where it meets some kinds of damage, so
+/// reading is tried in a process of its own first.
+void try_reading(const fs::path& path, const ReadOptions& options) {
+  int ends[2];
+  const pid_t child = ::pipe2(ends, O_CLOEXEC) == 0 ? ::fork() : -1;
+  if (child < 0) throw ComputationFailed(fmt::format("no process can be started: {}", std::strerror(errno)));
+  if (child == 0) read_and_end(path, options, ends[1]);
+  ::close(ends[1]);
+  std::string words;
+  char part[512];
+  for (ssize_t got = 0; (got = ::read(ends[0], part, sizeof part)) > 0 || (got < 0 && errno == EINTR);)
+    if (got > 0) words.append(part, static_cast<std::size_t>(got));
+  ::close(ends[0]);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  stop_if_interrupted();
+  if (!words.empty()) throw BadInput(words);
+  if (status != 0)
+    bad_input("{}: found DICOM data that its reader cannot bear, expected undamaged files", path.string());
+}
+
+}  // namespace
+
+bool is_dicom(const fs::path& path) {
+  if (fs::is_regular_file(path)) return has_mark(path);
+  if (!fs::is_directory(path)) return false;
+  bool found = false;
+  for (const auto& entry : fs::directory_iterator(path)) {
+    const std::string extension = lower_extension(entry.path());
+    if (extension == ".tif" || extension == ".tiff" || extension == ".png") return false;
+    found = found || (entry.is_regular_file() && has_mark(entry.path()));
+  }
+  return found;
+}
+
+Volume read_dicom(const fs::path& path, const ReadOptions& options) {
+  try_reading(path, options);
+  return read_series(path, options);
+}
+
+}  // namespace pendular

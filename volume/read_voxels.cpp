@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <span>
+
+#include "base/error.h"
+#include "base/inflate.h"
+#include "base/interrupt.h"
+#include "volume/header_text.h"
+#include "volume/pixels.h"
+#include "volume/voxel_header.h"
+
+namespace pendular {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "voxels are swapped where they are big endian");
+
+using Encoding = VoxelHeader::Encoding;
+
+[[noreturn]] void wrong_amount(const fs::path& file, std::uint64_t found, std::uint64_t expected,
+                               const char* more = "") {
+  bad_input("{}: found {} bytes of voxels{}, expected {}: truncated, or sizes or type do not match",
+            file.string(), found, more, expected);
+}
+
+/// What is stored of the voxels in a file.
+std::span<const std::byte> stored_in(const VoxelHeader& header, const fs::path& path,
+                                     const MappedFile& file) {
+  const std::span<const std::byte> all(file.data(), file.size());
+  const std::uint64_t expected = header.stored.value_or(header.bytes_per_file());
+  const bool whole = header.encoding == Encoding::raw || header.stored;  // the amount is known
+  if (header.at_end) {
+    if (!whole || all.size() < expected) wrong_amount(path, all.size(), expected);
+    return all.last(expected);
+  }
+  const auto rest = all.subspan(std::min<std::uint64_t>(header.first_byte, all.size()));
+  if (whole && rest.size() != expected) wrong_amount(path, rest.size(), expected);
+  return rest;
+}
+
+void inflate_voxels(const VoxelHeader& header, const fs::path& path, std::span<const std::byte> stored,
+                    Volume& volume) {
+  constexpr std::uint64_t much = 1 << 26,
+                          rarely = 20;  // bytes, and times the stored ones: not believed unseen
+  const std::uint64_t expected = header.bytes_per_file();
+  if (expected > much && expected > rarely * stored.size())
+    if (const std::uint64_t found = inflated_size(stored, expected); found != expected)
+      wrong_amount(path, found, expected, " once inflated");
+  allocate(volume, path, stored.size());
+  const std::uint64_t found =
+      inflate_into(stored, {reinterpret_cast<std::byte*>(bytes(volume)), static_cast<std::size_t>(expected)});
+  if (found != expected)
+    wrong_amount(path, found, expected, found > expected ? " or more once inflated" : " once inflated");
+}
+
+/// Whole numbers or decimal ones, parted by white space.
+void parse_voxels(const fs::path& path, std::span<const std::byte> stored, Volume& volume, std::size_t first,
+                  std::size_t count) {
+  const std::string_view text(reinterpret_cast<const char*>(stored.data()), stored.size());
+  std::visit(
+      [&]<typename T>(std::vector<T>& pixels) {
+        std::size_t at = 0, done = 0;
+        const auto skip = [&] { at = std::min(text.find_first_not_of(" \t\r\n", at), text.size()); };
+        for (skip(); at < text.size(); skip(), ++done) {
+          const std::size_t end = std::min(text.find_first_of(" \t\r\n", at), text.size());
+          if (done == count)
+            bad_input("{}: found more than {} voxels, expected so many", path.string(), count);
+          const std::string_view word = text.substr(at, std::min<std::size_t>(end - at, 40));
+          if constexpr (std::is_same_v<T, float>)
+            pixels[first + done] = static_cast<float>(to_number(path.string() + ": voxels", word));
+          else
+            pixels[first + done] = static_cast<T>(
+                to_integer(path.string() + ": voxels", word, 0, std::numeric_limits<T>::max()));
+          at = end;
+        }
+        if (done != count) bad_input("{}: found {} voxels, expected {}", path.string(), done, count);
+      },
+      volume.pixels);
+}
+
+void swap_bytes(Volume& volume) {
+  const std::size_t width = bytes_per_voxel(volume);
+  char* first = bytes(volume);
+  for (std::size_t k = 0; k < volume.voxels(); ++k) std::reverse(first + k * width, first + (k + 1) * width);
+}
+
+/// Room for all voxels, once the files are seen to be large enough for them.
+void make_room(const VoxelHeader& header, const fs::path& path, Volume& volume) {
+  const std::uint64_t width = bytes_per_voxel(volume), each = header.bytes_per_file();
+  const std::uint64_t least = header.encoding == Encoding::text ? 2 * (each / width) - 1 : each;
+  std::uintmax_t there = 0;
+  for (const auto& file : header.files) {
+    const std::uintmax_t size = fs::file_size(file),
+                         skipped = std::min<std::uintmax_t>(size, header.first_byte);
+    if (size - skipped < least) wrong_amount(file, size - skipped, least);
+    there += size;
+  }
+  allocate(volume, path, there);
+}
+
+}  // namespace
+
+std::uint64_t VoxelHeader::bytes_per_file() const {
+  const std::size_t width = std::visit([](const auto& own) { return sizeof(own[0]); }, pixels);
+  return std::uint64_t{width} * size[0] * size[1] * size[2] / files.size();
+}
+
+void read_voxels(const VoxelHeader& header, const fs::path& path, Volume& volume) {
+  if (header.encoding == Encoding::raw && header.files.size() == 1 && !header.big_endian) {
+    volume.file = std::make_shared<MappedFile>(header.files[0]);
+    const auto stored = stored_in(header, header.files[0], *volume.file);
+    volume.first_byte = static_cast<std::size_t>(stored.data() - volume.file->data());
+    return;
+  }
+  if (header.encoding == Encoding::deflated) {
+    const MappedFile file(header.files[0]);
+    inflate_voxels(header, path, stored_in(header, header.files[0], file), volume);
+  } else {
+    make_room(header, path, volume);
+    const std::uint64_t width = bytes_per_voxel(volume), each = header.bytes_per_file();
+    for (std::size_t k = 0; k < header.files.size(); ++k) {
+      stop_if_interrupted();
+      const MappedFile file(header.files[k]);
+      const auto stored = stored_in(header, header.files[k], file);
+      if (header.encoding == Encoding::text)
+        parse_voxels(header.files[k], stored, volume, k * each / width, each / width);
+      else
+        std::memcpy(bytes(volume) + k * each, stored.data(), each);
+    }
+  }
+  if (header.big_endian && header.encoding != Encoding::text) swap_bytes(volume);
+}
+
+}  // namespace pendular
