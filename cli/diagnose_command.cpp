@@ -77,13 +77,13 @@ std::string in_words(const diagnosis::NextSteps& steps) {
 /// Before anything is measured.
 void plan(const Options& options, const diagnosis::Experiment& beliefs) {
   protect_also({beliefs.sample_file});
+  std::set<std::string> about;
+  for (const auto& id : options.about) about.insert(effects::find_effect(id, "--about").id);
   const TemporaryFolder scratch;
   const fs::path beads =
       options.dry_run ? scratch.path() : options.making.store_folder(options.common) / "measured";
   const auto planned = diagnosis::planned_experiment(beliefs, beads);
   if (options.dry_run) return tell_cost(options, planned);
-  std::set<std::string> about;
-  for (const auto& id : options.about) about.insert(effects::find_effect(id, "--about").id);
   const auto bank = diagnosis::plan_bank(planned, bank_options(options), beads);
   diagnosis::Rules rules;
   rules.confidence = options.confidence;

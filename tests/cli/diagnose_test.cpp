@@ -75,6 +75,20 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"FieldMirrored", "displacements", field(true), "mirrored"}),
     [](const auto& test) { return test.param.name; });
 
+TEST(DiagnosePlan, AboutNeedsAPlanAndKnowsItsEffects) {
+  ScratchFolder folder;
+  write_text(folder / "s.toml", test::small_sample());
+  const auto plan = [&](const std::string& how) {
+    return shell(folder.path(), "$P diagnose s.toml -o out --store store --dry-run " + how);
+  };
+  EXPECT_EQ(plan("--about platen_tilt").status, 2);
+  const Outcome unknown = plan("--plan --about platen_tlt");
+  EXPECT_EQ(unknown.status, 3) << unknown.errors;
+  EXPECT_NE(unknown.errors.find("platen_tilt"), std::string::npos) << unknown.errors;
+  EXPECT_EQ(plan("--plan --about platen_tilt").status, 0);
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
 TEST(DiagnoseWarning, TellsWhatIsOddBeforeAnyRunIsMade) {
   ScratchFolder folder;
   const Outcome outcome =
