@@ -18,6 +18,7 @@
 
 #include "base/interrupt.h"
 #include "base/progress.h"
+#include "volume/format.h"
 #include "volume/image_io.h"
 
 namespace pendular {
@@ -227,6 +228,16 @@ bool is_dicom(const fs::path& path) {
 Volume read_dicom(const fs::path& path, const ReadOptions& options) {
   try_reading(path, options);
   return read_series(path, options);
+}
+
+VolumeFormat formats::dicom() {
+  return {.name = "DICOM (a folder of slices, or a file of several frames)",
+          .recognises = [](const fs::path& path, const ReadOptions&) { return is_dicom(path); },
+          .files =
+              [](const fs::path& path) {
+                return fs::is_directory(path) ? files_in(path) : std::vector<fs::path>{path};
+              },
+          .read = read_dicom};
 }
 
 }  // namespace pendular
