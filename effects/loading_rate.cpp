@@ -25,6 +25,8 @@ Effect loading_rate() {
           .highest = 100.0,
           .bank_from = 0.0,
           .bank_to = 10.0,
+          .settled_by = DirectMeasurement{"the simulation at half the speed",
+                                          "the only one that needs no experiment", 0.1},
           .sample = change};
 }
 

@@ -7,6 +7,7 @@
 #include "base/median.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
+#include "effects/list.h"
 #include "micromechanics/stiffness.h"
 
 namespace pendular::diagnosis {
@@ -66,7 +67,7 @@ Columns at_gap(const Observation& observation, const Sample& sample, double gap)
 
 /// Bridges cut from the specimen have its gaps: the mean logarithm over their distribution.
 Columns of_specimen(const Observation& observation, const Sample& sample) {
-  const double spread = effect_magnitude(sample, "bridge_gap_spread") / kUm, least = sample.bridges.gap;
+  const double spread = effects::spread_of_bridges(sample).gap_excess / kUm, least = sample.bridges.gap;
   Columns sum = at_gap(observation, sample, least);
   if (spread <= 0.0) return sum;
   for (const char* name : {"kn_n_per_m", "kt_n_per_m"}) std::fill(sum[name].begin(), sum[name].end(), 0.0);
@@ -235,6 +236,7 @@ const Kind& kinds::bridge_stiffness() {
                          .keys = {{"origin", {"made", "specimen"}},
                                   {"gap_um", {}, 0.0, 1e3, 0.0},
                                   {"gap_sigma_um", {}, 0.0, 1e3, 0.0}},
+                         .usual = UsualMeasurement{"twenty single bridges by micropipettes", "stiffness and course of a bridge without the network", 1.0},
                          .of_bridges = true,
                          .check = check,
                          .simulate = simulate,

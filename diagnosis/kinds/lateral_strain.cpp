@@ -116,6 +116,7 @@ const Kind& kinds::lateral_strain() {
                          .required = {"strain", "lateral_strain"},
                          .optional = {"sigma"},
                          .least_rows = 4,
+                         .usual = UsualMeasurement{"lateral strain at mid-height", "rearrangement and the ends show in it, a softer polymer does not", 0.3},
                          .check = check,
                          .course = course,
                          .simulate = simulate,

@@ -101,11 +101,6 @@ Columns columns_of_rows(const SimulatedTest& test, const std::string& name, doub
   return columns;
 }
 
-double effect_magnitude(const Sample& sample, const std::string& effect) {
-  const auto found = sample.effects.find(effect);
-  return found == sample.effects.end() ? 0.0 : found->second;
-}
-
 double simulated_modulus(const SimulatedTest& test) {
   const auto found = pendular::curve_features(test.rows);
   return found ? found->modulus : std::nan("");
