@@ -11,10 +11,6 @@ void Provenance::add_input(const fs::path& path) {
   inputs.push_back({path.string(), sha256_of(path)});
 }
 
-std::string program_version() {
-  return PENDULAR_VERSION;
-}
-
 nlohmann::ordered_json to_json(const Provenance& provenance) {
   nlohmann::ordered_json inputs = nlohmann::ordered_json::array();
   for (const auto& input : provenance.inputs)

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "base/nearest.h"
-#include "base/provenance.h"
+#include "base/model_version.h"
 #include "base/toml_place.h"
 #include "blind/engine.h"
 #include "diagnosis/experiment/believed.h"
@@ -210,7 +210,7 @@ Split read_split(const fs::path& path, std::optional<std::uint64_t> seed) {
   if (seed) split.seed = *seed;
   check(split);
   split.content =
-      sha256(fmt::format("{}\n{}\n{}\n{}", program_version(), split.seed, text, sample_text(split.sample)));
+      sha256(fmt::format("{}\n{}\n{}\n{}", kModelVersion, split.seed, text, sample_text(split.sample)));
   return split;
 }
 

@@ -273,10 +273,6 @@ void remove_earlier_run(const fs::path& folder) {
     if (entry.path().filename().string().starts_with("frame_")) remove_output(entry.path());
 }
 
-std::string identity_of(const Provenance& provenance) {
-  return sha256(to_json(provenance).dump());
-}
-
 AvalancheWindow window_of(const Simulation& simulation, const Sample& sample) {
   const double kn = simulation.law.k_glass / sample.contact.stiffness_ratio;
   return avalanche_window(simulation, kn, platen_speed(sample) / simulation.initial_height);
@@ -312,7 +308,7 @@ Packing realise(const Packing& packing, const Sample& sample, std::uint64_t seed
 
 CompressResult compress(const Packing& packing, const Sample& sample, const fs::path& folder,
                         const CompressOptions& options) {
-  const std::string identity = identity_of(options.provenance);
+  const std::string identity = work_identity(packing, sample, options.work);
   auto kept = options.resume ? kept_checkpoint(folder, identity) : std::nullopt;
   RunState state;
   if (kept) {

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/model_version.h"
 #include "base/parallel.h"
 #include "effects/compress.h"
 #include "packing/bridges.h"
@@ -101,7 +102,7 @@ void book(Store& store, const std::string& hash, const RunRequest& request,
 void make(Store& store, const std::string& hash) {
   const RunRequest request = store.request(hash);
   if (content_hash(request) != hash)
-    bad_input("run {}: was asked for by another version of pendular, this is {}", hash, program_version());
+    bad_input("run {}: was asked for by another version of the model, this is {}", hash, kModelVersion);
   const fs::path final_folder = store.run_folder(hash), folder = store.part_folder(hash);
   if (fs::exists(final_folder)) return book(store, hash, request, std::nullopt);
   make_inner_folder(folder);
