@@ -193,9 +193,9 @@ EngineResult result_of(const json& read, std::size_t beads, std::size_t frames) 
 }  // namespace
 
 std::string run_text(const EngineRun& run) {
-  if (run.sample.bridges.stiffness != "one")
+  if (run.sample.bridges.stiffness != StiffnessOf::one)
     bad_input("engine {}: found bridges.stiffness = \"{}\", expected \"one\"", run.engine.name,
-              run.sample.bridges.stiffness);
+              to_string(run.sample.bridges.stiffness));
   ordered_json effects = ordered_json::object();
   for (const auto& [id, theta] : run.sample.effects) effects[id] = theta;
   ordered_json diameters = ordered_json::array();

@@ -156,12 +156,12 @@ void check(const Split& split) {
   if (split.unload_at >= split.max_strain)
     bad_input("{}: test.unload_at: found {}, expected less than max_strain {}", file, split.unload_at,
               split.max_strain);
-  if (split.sample.beads.diameters != "measured")
+  if (split.sample.beads.diameters != Diameters::measured)
     bad_input("{}: its sample has beads.diameters = \"{}\", expected \"measured\"", file,
-              split.sample.beads.diameters);
-  if (split.sample.compression.control != "speed")
+              to_string(split.sample.beads.diameters));
+  if (split.sample.compression.control != Control::speed)
     bad_input("{}: its sample has compression.control = \"{}\", expected \"speed\"", file,
-              split.sample.compression.control);
+              to_string(split.sample.compression.control));
   if (!split.sample.effects.empty()) bad_input("{}: its sample has [effects], expected none", file);
 }
 

@@ -85,7 +85,7 @@ class Test {
 
   void step() {
     write_due_frames();
-    if (sample_.compression.control == "relaxation") return relax();
+    if (sample_.compression.control == Control::relaxation) return relax();
     Simulation& s = state_.simulation;
     program_.drive(s, state_.platen);
     stepper_.step();
@@ -292,7 +292,7 @@ void warn_unless_quasi_static(const std::vector<CurveRow>& rows) {
 }  // namespace
 
 Packing realise(const Packing& packing, const Sample& sample, std::uint64_t seed) {
-  if (diameters_used(sample, packing.beads) == "measured") return packing;
+  if (diameters_used(sample, packing.beads) == Diameters::measured) return packing;
   Packing drawn = packing;
   std::vector<Vec3> centres;
   for (const auto& bead : packing.beads) centres.push_back(bead.centre);
@@ -331,7 +331,7 @@ CompressResult compress(const Packing& packing, const Sample& sample, const fs::
   result.result = result_json(state, sample, options.provenance);
   const auto found = avalanches(state.simulation.events, window_of(state.simulation, sample));
   result.result["avalanches"] = found.size();
-  result.result["diameters"] = diameters_used(sample, packing.beads);
+  result.result["diameters"] = to_string(diameters_used(sample, packing.beads));
   result.result["pairs_touching_at_start"] = touching_pairs(packing.beads);
   const Coordination interior = coordination(packing.beads, packing.bridges);
   result.result["coordination"] = {{"bridges_per_interior_bead", interior.mean},

@@ -151,7 +151,7 @@ nlohmann::ordered_json result_json(const RunState& state, const Sample& sample,
   json["shear_band"] = shear_band_json(simulation, sample.beads.diameter);
   json["work_balance"] = work_balance_json(simulation);
   json["quasi_static"] = quasi_static_json(state.rows);
-  if (sample.compression.control == "relaxation")
+  if (sample.compression.control == Control::relaxation)
     json["relaxation"] = relaxation_json(state.rows, sample.compression);
   json["broken_bonds"] = simulation.events.size();
   json["beads"] = simulation.beads.size();

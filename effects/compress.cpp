@@ -30,7 +30,7 @@ std::vector<Active> active_effects(const Sample& sample, std::uint64_t seed) {
 
 void make_bodies(ActualSpecimen& specimen, const std::vector<Active>& active) {
   const auto standing = standing_bridges(specimen.packing);
-  if (specimen.sample.bridges.stiffness == "one")
+  if (specimen.sample.bridges.stiffness == StiffnessOf::one)
     specimen.believed_bodies.assign(standing.size(), mean_bridge(specimen.sample));
   else
     specimen.believed_bodies = bond_bodies(specimen.packing, standing, specimen.sample);

@@ -6,7 +6,7 @@ namespace {
 void change(Sample& sample, double theta) {
   auto& asked = sample.compression;
   (asked.speed_si ? *asked.speed_si : asked.speed) *= theta;
-  if (asked.control == "relaxation") asked.control = "speed";
+  if (asked.control == Control::relaxation) asked.control = Control::speed;
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ std::vector<double> rounded(std::vector<double> strains) {
 
 /// Diameters of measured beads are not drawn anew; nothing is shown that no observation asks for.
 void set_course(Sample& sample, const Observation& observation) {
-  if (!observation.beads.empty()) sample.beads.diameters = "measured";
+  if (!observation.beads.empty()) sample.beads.diameters = Diameters::measured;
   sample.observe = {false, false, false, false, false};
   sample.compression.frames = 0.0;
   sample.compression.frame_at.clear();
@@ -97,7 +97,7 @@ fs::path network_of(const Experiment& experiment, const fs::path& beads) {
 /// A specimen whose network was measured has it, and each bridge its own neck.
 void set_network(Condition& condition, const Experiment& experiment) {
   condition.network = network_of(experiment, condition.beads);
-  if (!condition.network.empty()) condition.sample.bridges.stiffness = "per_bridge";
+  if (!condition.network.empty()) condition.sample.bridges.stiffness = StiffnessOf::per_bridge;
 }
 
 Condition condition_of(const Experiment& experiment, std::size_t index) {

@@ -142,7 +142,7 @@ TEST(Checkpoint, ResumedFromTheOneBeforeARunEndsWithTheSameBytes) {
   Sample unloading = short_test(), holding = short_test(), ramp = short_test();
   unloading.compression.unload_at = {0.002, 0.004};
   holding.compression.hold_at = {0.004};  // the checkpoint before the last is from within the hold
-  ramp.compression.control = "stress";
+  ramp.compression.control = Control::stress;
   ramp.compression.stress_rate = 1e10;
   for (const auto& [name, sample] : {Case{"unloading", unloading}, {"holding", holding}, {"ramp", ramp}}) {
     SCOPED_TRACE(name);

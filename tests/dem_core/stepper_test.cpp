@@ -38,7 +38,7 @@ Simulation violent(const Sample& sample, const Packing& packing, double k_bend =
 
 struct Law {
   const char* name;
-  const char* springs;
+  TangentialSprings springs;
   bool bond_friction_limit;
   double k_bend;
 };
@@ -92,11 +92,11 @@ TEST_P(Kernel, AgreesWithTheReferenceLoop) {
 
 INSTANTIATE_TEST_SUITE_P(EverySet, Kernel,
                          testing::Combine(testing::ValuesIn(instruction_sets()),
-                                          testing::Values(Law{"TwoSprings", "two", false, 0.0},
-                                                          Law{"TwoSpringsCoulomb", "two", true, 0.0},
-                                                          Law{"OneSpring", "one", false, 0.0},
-                                                          Law{"OneSpringCoulomb", "one", true, 0.0},
-                                                          Law{"Bending", "two", false, 3e-6})),
+                                          testing::Values(Law{"TwoSprings", TangentialSprings::two, false, 0.0},
+                                                          Law{"TwoSpringsCoulomb", TangentialSprings::two, true, 0.0},
+                                                          Law{"OneSpring", TangentialSprings::one, false, 0.0},
+                                                          Law{"OneSpringCoulomb", TangentialSprings::one, true, 0.0},
+                                                          Law{"Bending", TangentialSprings::two, false, 3e-6})),
                          [](const auto& test) {
                            return std::get<0>(test.param) + std::get<1>(test.param).name;
                          });
