@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "base/error.h"
 #include "sweep/executors.h"
@@ -22,15 +21,6 @@ void OpenRuns::ask() {
       records_.push_back(record);
   }
   if (options_.progress) options_.progress(done, failed, hashes_.size());
-}
-
-std::string last_words(const Store& store, const std::string& hash) {
-  if (!fs::exists(store.log_path(hash))) return "";
-  std::istringstream lines(read_text(store.log_path(hash)));
-  std::string line, last;
-  while (std::getline(lines, line))
-    if (!line.empty()) last = line;
-  return last;
 }
 
 namespace {
