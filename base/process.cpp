@@ -112,8 +112,7 @@ int waited_for(pid_t child) {
 std::string all_of(int descriptor) {
   std::string text;
   char part[4096];
-  for (ssize_t got = 0;
-       (got = ::read(descriptor, part, sizeof part)) > 0 || (got < 0 && errno == EINTR);)
+  for (ssize_t got = 0; (got = ::read(descriptor, part, sizeof part)) > 0 || (got < 0 && errno == EINTR);)
     if (got > 0) text.append(part, static_cast<std::size_t>(got));
   return text;
 }

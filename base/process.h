@@ -28,10 +28,10 @@ fs::path found_on_path(const std::string& name);
 
 /// How a process starts. It has no input; what it says goes to `log`, or nowhere.
 struct Surroundings {
-  fs::path log = {};         ///< written anew
-  fs::path folder = {};      ///< that it works in; empty: this one's
-  bool apart = false;        ///< Ctrl-C at the terminal does not reach it
-  int handed = -1;           ///< a descriptor that it gets as number 3; none below zero
+  fs::path log = {};     ///< written anew
+  fs::path folder = {};  ///< that it works in; empty: this one's
+  bool apart = false;    ///< Ctrl-C at the terminal does not reach it
+  int handed = -1;       ///< a descriptor that it gets as number 3; none below zero
 };
 
 /// A process of another program. It goes when this process does.

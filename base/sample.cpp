@@ -137,7 +137,7 @@ std::string to_string(Control value) {
 }
 
 const std::vector<WordKey>& word_keys() {
-#define PENDULAR_WORD(type, field)                                      \
+#define PENDULAR_WORD(type, field)                                       \
   words_for<type>(), [](const Sample& s) { return to_string(s.field); }, \
       [](Sample& s, std::size_t which) { s.field = static_cast<type>(which); }
   static const std::vector<WordKey> keys = {

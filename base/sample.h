@@ -58,8 +58,8 @@ struct Sample {
   } specimen;
 
   struct Compression {
-    double speed = 1e-4;                ///< platen speed over D √(k_glass/m)
-    std::optional<double> speed_si;     ///< m/s; overrides `speed`
+    double speed = 1e-4;             ///< platen speed over D √(k_glass/m)
+    std::optional<double> speed_si;  ///< m/s; overrides `speed`
     Control control = Control::speed;
     double relax_increment = 1e-3;      ///< strain of an increment
     double relax_to = 1e-3;             ///< unbalanced force that counts as rest

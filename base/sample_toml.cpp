@@ -31,7 +31,8 @@ void check_together(const Sample& sample, const std::string& file) {
         "{}: compression.control = \"{}\" {} compression.stress_rate_pa_s: expected control = \"stress\" and "
         "the rate of its ramp, or neither",
         file, to_string(compression.control), compression.stress_rate ? "with" : "without");
-  if (compression.control != Control::speed && !(compression.unload_at.empty() && compression.hold_at.empty()))
+  if (compression.control != Control::speed &&
+      !(compression.unload_at.empty() && compression.hold_at.empty()))
     bad_input("{}: compression.unload_at and compression.hold_at: expected only where control is \"speed\"",
               file);
   if (sample.phantom.bits != 8.0 && sample.phantom.bits != 16.0)

@@ -13,15 +13,12 @@ namespace {
 constexpr double kYadeDamping = 0.2;  // of accelerations, in place of dashpots
 // Effects that it has: coded in its scripts (blind/yade) or, of the measurement, made by the project's own
 // code. No other one is drawn for it.
-constexpr std::array kOfYade = {"bridge_gap_spread",    "bridge_diameter_spread",
-                                "missing_bridges",      "bridge_bending",
-                                "polymer_nonlinearity", "polymer_viscoelasticity",
-                                "bond_damage",          "interface_strength",
-                                "residual_stress",      "bead_friction",
-                                "platen_friction",      "platen_tilt",
-                                "platen_roughness",     "machine_compliance",
-                                "voxel_scale",          "loading_rate",
-                                "position_error",       "diameter_bias"};
+constexpr std::array kOfYade = {"bridge_gap_spread", "bridge_diameter_spread", "missing_bridges",
+                                "bridge_bending",    "polymer_nonlinearity",   "polymer_viscoelasticity",
+                                "bond_damage",       "interface_strength",     "residual_stress",
+                                "bead_friction",     "platen_friction",        "platen_tilt",
+                                "platen_roughness",  "machine_compliance",     "voxel_scale",
+                                "loading_rate",      "position_error",         "diameter_bias"};
 
 }  // namespace
 

@@ -6,7 +6,8 @@
 namespace pendular::blind {
 
 /// Makes the cases of a split that are not there yet, each in a process of its own, `cores` side by side, and
-/// writes seals.csv when all are there. `command_of` gives what makes one. ComputationFailed naming cases that could not be made.
+/// writes seals.csv when all are there. `command_of` gives what makes one. ComputationFailed naming cases
+/// that could not be made.
 void make_split(const CaseFolders& folders, const Split& split, std::size_t cores,
                 const std::function<Command(std::size_t number)>& command_of);
 

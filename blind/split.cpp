@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/nearest.h"
 #include "base/model_version.h"
+#include "base/nearest.h"
 #include "base/toml_place.h"
 #include "blind/engine.h"
 #include "diagnosis/experiment/believed.h"

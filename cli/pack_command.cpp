@@ -116,16 +116,17 @@ nlohmann::ordered_json to_json(const Closing& closing) {
           {"rms_over_stated_errors", closing.rms_over_errors}};
 }
 
-std::string use_in_words(const Sample& sample, Diameters diameters,
-                         const std::optional<Closing>& closed) {
+std::string use_in_words(const Sample& sample, Diameters diameters, const std::optional<Closing>& closed) {
   if (closed)
     return fmt::format(
         "diameters as measured: {} contacts closed by moving centres by {:.3f} um along each axis "
         "and changing diameters by {:.3f} um (rms; {:.2f} of the stated errors)",
         closed->contacts, 1e6 * closed->centre_rms, 1e6 * closed->diameter_rms, closed->rms_over_errors);
-  if (diameters == Diameters::measured) return "diameters as they are: no errors are stated, no contacts closed";
-  return fmt::format("diameters are drawn when compressed: {}",
-                     sample.beads.diameters == Diameters::automatic ? "no errors are stated" : "the sample asks for it");
+  if (diameters == Diameters::measured)
+    return "diameters as they are: no errors are stated, no contacts closed";
+  return fmt::format("diameters are drawn when compressed: {}", sample.beads.diameters == Diameters::automatic
+                                                                    ? "no errors are stated"
+                                                                    : "the sample asks for it");
 }
 
 void report(const PackingStatistics& s) {

@@ -142,10 +142,7 @@ void run(const Options& options) {
 void add_segment(CLI::App& app) {
   auto options = std::make_shared<Options>();
   auto* command = add_picture_command(app, "segment");
-  command
-      ->add_option("volume", options->volume,
-                   "Volume: " + format_names())
-      ->required();
+  command->add_option("volume", options->volume, "Volume: " + format_names())->required();
   add_common(*command, options->common, "Beads (beads.csv); a summary goes beside it as .json");
   command->add_option("--voxel-um", options->voxel_um, "Edge of a voxel, um; overrides the header's")
       ->check(CLI::PositiveNumber);

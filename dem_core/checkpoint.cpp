@@ -11,7 +11,7 @@ namespace pendular {
 namespace {
 
 constexpr char kNewest[] = "checkpoint", kPrevious[] = "checkpoint.previous", kNext[] = "checkpoint.next";
-constexpr char kMagic[] = "pendular checkpoint 5\n";
+constexpr char kMagic[] = "pendular checkpoint 6\n";
 
 struct Writer {
   std::string bytes;
@@ -114,9 +114,7 @@ void visit(Archive& a, Simulation& s) {
 
 template <typename Archive>
 void visit(Archive& a, CurveRow& r) {
-  fields(a, r.strain, r.stress, r.stress_bottom, r.broken_bonds, r.kinetic, r.elastic, r.work, r.damped,
-         r.slipped, r.released, r.halted, r.coordination, r.lateral_strain, r.inertial_number,
-         r.unbalanced_force);
+  for (const auto& column : curve_columns()) a.scalar(r.*column.field);
 }
 
 template <typename Archive>

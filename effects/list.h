@@ -7,8 +7,8 @@
 
 namespace pendular::effects {
 
-/// Every effect, in the order in which they are applied: the library's, then those that were added. References
-/// stay as others come and go.
+/// Every effect, in the order in which they are applied: the library's, then those that were added.
+/// References stay as others come and go.
 const std::list<Effect>& all_effects();
 
 /// An effect that is no part of the library, at the end of the list as long as this lives. Add it before

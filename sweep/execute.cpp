@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "run_folder/run_folder.h"
 #include "sweep/executors.h"
 #include "sweep/make_run.h"
 
@@ -27,7 +28,7 @@ namespace {
 
 /// BadInput where a finished run has no result of its own.
 void require_result(const Store& store, const std::string& hash) {
-  const fs::path file = store.run_folder(hash) / "result.json";
+  const fs::path file = store.run_folder(hash) / run_file::kResult;
   const auto json = nlohmann::json::parse(read_text(file), nullptr, false);
   const nlohmann::json::json_pointer command("/provenance/command");
   const bool whole = json.is_object() && json.contains("linear_modulus_pa") && json.contains("beads") &&

@@ -60,9 +60,10 @@ class Children {
     if (status == kCannotBeStarted)  // the run stays open
       throw ComputationFailed(fmt::format("{}: cannot be started", worker_.program.string()));
     if (status > kKilled && status != kInterrupted)
-      store_.fail(hash, status,
-                  fmt::format("its process was killed by signal {} ({}){}", status - kKilled,
-                              ::strsignal(status - kKilled), words.empty() ? "" : "; it last said: " + words));
+      store_.fail(
+          hash, status,
+          fmt::format("its process was killed by signal {} ({}){}", status - kKilled,
+                      ::strsignal(status - kKilled), words.empty() ? "" : "; it last said: " + words));
     else if (status != 0 && status != kInterrupted)
       store_.fail(hash, status, words);
   }

@@ -12,6 +12,7 @@
 #include "packing/bridges.h"
 #include "packing/generate.h"
 #include "packing/vtp.h"
+#include "run_folder/run_folder.h"
 
 namespace pendular::sweep {
 namespace {
@@ -94,7 +95,7 @@ void book(Store& store, const std::string& hash, const RunRequest& request,
   fs::remove(folder / "checkpoint.previous");  // only slow runs have one
   if (!request.keep_all) {
     fs::remove_all(folder / "checkpoint");
-    if (request.sample.compression.frame_at.empty()) fs::remove_all(folder / "frames");
+    if (request.sample.compression.frame_at.empty()) fs::remove_all(folder / run_file::kFrames);
   }
   store.finish(hash, effort);
 }
@@ -122,7 +123,7 @@ void make(Store& store, const std::string& hash) {
   effort.seconds = rate > 0.0 ? effort.particle_steps / rate : 0.0;
   effort.threads = static_cast<int>(thread_count());
   result.erase("performance");  // the only part that differs between two runs of the same work
-  write_text(folder / "result.json", result.dump(2) + "\n");
+  write_text(folder / run_file::kResult, result.dump(2) + "\n");
   remove_leftovers(folder);
   rename_durably(folder, final_folder);
   book(store, hash, request, effort);

@@ -51,8 +51,7 @@ class Arrays {
                                    "hash=$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" {})\n"
                                    "exec {} {} \"$hash\" --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" "
                                    ">{}/\"$hash\".txt 2>&1\n",
-                                   quoted(list), worker_in_words(),
-                                   quoted(fs::absolute(store_.folder())),
+                                   quoted(list), worker_in_words(), quoted(fs::absolute(store_.folder())),
                                    quoted(fs::absolute(store_.folder() / "logs"))));
     const auto answer =
         ask_shell(fmt::format("sbatch --parsable --array=0-{} --job-name=pendular --output=/dev/null {} {}",

@@ -49,9 +49,9 @@ Display::Display() {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) throw ComputationFailed("no pipe to start Xvfb with");
   // Ctrl-C is for the program, which ends the server itself once its windows are closed.
-  server_.emplace(Command{"Xvfb",
-                          {"-displayfd", "3", "-screen", "0", "640x480x24", "-nolisten", "tcp", "-noreset"}},
-                  Surroundings{.apart = true, .handed = ends[1]});
+  server_.emplace(
+      Command{"Xvfb", {"-displayfd", "3", "-screen", "0", "640x480x24", "-nolisten", "tcp", "-noreset"}},
+      Surroundings{.apart = true, .handed = ends[1]});
   ::close(ends[1]);
   const std::string number = read_number(ends[0]);
   ::close(ends[0]);

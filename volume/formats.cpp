@@ -8,8 +8,8 @@ namespace pendular {
 namespace {
 
 std::list<VolumeFormat>& all_formats() {
-  static std::list<VolumeFormat> all = {formats::dicom(),      formats::slices(), formats::headerless(),
-                                        formats::phoenix(),    formats::meta_image(), formats::nrrd(),
+  static std::list<VolumeFormat> all = {formats::dicom(),   formats::slices(),     formats::headerless(),
+                                        formats::phoenix(), formats::meta_image(), formats::nrrd(),
                                         formats::tiff()};
   return all;
 }

@@ -32,10 +32,11 @@ Volume read_headerless(const fs::path& path, const ReadOptions& options) {
 }
 
 VolumeFormat formats::headerless() {
-  return {.name = "raw data of a stated size",
-          .recognises = [](const fs::path& path,
-                           const ReadOptions& options) { return options.raw_size && !fs::is_directory(path); },
-          .read = read_headerless};
+  return {
+      .name = "raw data of a stated size",
+      .recognises = [](const fs::path& path,
+                       const ReadOptions& options) { return options.raw_size && !fs::is_directory(path); },
+      .read = read_headerless};
 }
 
 }  // namespace pendular

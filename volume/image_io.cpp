@@ -38,9 +38,7 @@ itk::ImageIOBase::Pointer reader_of(const fs::path& path) {
   itk::ImageIOBase::Pointer io;
   if (extension == ".tif" || extension == ".tiff") io = itk::TIFFImageIO::New();
   if (extension == ".png") io = itk::PNGImageIO::New();
-  if (!io)
-    bad_input(
-        "{}: found extension '{}', expected .tif, .tiff or .png", path.string(), extension);
+  if (!io) bad_input("{}: found extension '{}', expected .tif, .tiff or .png", path.string(), extension);
   io->SetFileName(path.string());
   return io;
 }

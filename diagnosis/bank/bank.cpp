@@ -38,9 +38,9 @@ double moved(const Experiment& experiment, const Sample& sample, const std::stri
 /// Magnitudes of an effect in the bank: about what the measured beads themselves show of it, where they do.
 std::vector<double> magnitudes_of(const effects::Effect& effect, int levels, const Experiment& experiment) {
   std::vector<double> found;
-  if (const auto shown =
-          experiment.contacts && effect.shown_by_beads ? effect.shown_by_beads(*experiment.contacts)
-                                                        : std::nullopt) {
+  if (const auto shown = experiment.contacts && effect.shown_by_beads
+                             ? effect.shown_by_beads(*experiment.contacts)
+                             : std::nullopt) {
     for (int k = 1; k <= levels; ++k)
       found.push_back(std::clamp(kAbout * k / levels * *shown, effect.lowest, effect.highest));
     return found;

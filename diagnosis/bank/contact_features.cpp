@@ -21,9 +21,10 @@ std::vector<ContactFeature> contact_features(const ContactPeak& peak) {
        std::hypot(kTouchingGap * diameter, kUm * peak.sigma_position())}};
   // The flank of pairs that are apart hides part of a wide peak.
   if (stated > 0.0)
-    features.push_back({{kBeads, "contact_variance_um2", Scale::network, false, scatter * scatter},
-                        std::hypot(std::hypot(std::pow(kTouchingScatter * diameter, 2), kStated * stated * stated),
-                                   kFlank * scatter * scatter)});
+    features.push_back(
+        {{kBeads, "contact_variance_um2", Scale::network, false, scatter * scatter},
+         std::hypot(std::hypot(std::pow(kTouchingScatter * diameter, 2), kStated * stated * stated),
+                    kFlank * scatter * scatter)});
   return features;
 }
 

@@ -16,8 +16,8 @@ struct ContactFeature {
 };
 
 /// The mean gap of touching beads and, where errors are stated, its variance: without errors of measurement
-/// beyond those stated, zero and what is stated. The standard errors hold what touching beads overlap and part
-/// by (kTouchingGap, kTouchingScatter).
+/// beyond those stated, zero and what is stated. The standard errors hold what touching beads overlap and
+/// part by (kTouchingGap, kTouchingScatter).
 std::vector<ContactFeature> contact_features(const ContactPeak& peak);
 
 bool is_of_beads(const Feature& feature);

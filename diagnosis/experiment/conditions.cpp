@@ -144,7 +144,9 @@ std::vector<std::size_t> supporting_rows(const std::vector<double>& at, bool by_
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return at[a] < at[b]; });
   for (std::size_t k = 0; k < order.size(); ++k) {
-    const auto beyond = [&](std::size_t n) { return by_content && at[order[n]] > effects::kFunicularContent; };
+    const auto beyond = [&](std::size_t n) {
+      return by_content && at[order[n]] > effects::kFunicularContent;
+    };
     const bool end = k == 0 || k + 1 == order.size();
     if (end || beyond(k) != beyond(k - 1) || beyond(k) != beyond(k + 1)) rows.push_back(order[k]);
   }

@@ -176,16 +176,16 @@ void add_kinds(std::vector<FurtherMeasurement>& all) {
 void add_tests(std::vector<FurtherMeasurement>& all) {
   const std::string polymer = "bridges.youngs_modulus_pa", height = "specimen.height_um";
   const std::vector<FurtherMeasurement> tests = {
-          scan_at(0.01),
-          scan_at(0.02),
-          scan_at(0.05),
-          {"unloading loops at 2, 4 and 6 % of strain",
-           "damage lowers the unloading modulus, a softer law does not", 1.0, unloaded},
-          of_another(height, kShorter, "a specimen of half the height",
-                     "what sits at the ends or in the machine counts twice as much"),
-          of_another(polymer, kStiffer, "a specimen with a polymer four times as stiff",
-                     "a compliance in series counts four times as much, geometry as before"),
-          {"another specimen, ten times as slowly", "only what takes time depends on the rate", 1.2, slower}};
+      scan_at(0.01),
+      scan_at(0.02),
+      scan_at(0.05),
+      {"unloading loops at 2, 4 and 6 % of strain",
+       "damage lowers the unloading modulus, a softer law does not", 1.0, unloaded},
+      of_another(height, kShorter, "a specimen of half the height",
+                 "what sits at the ends or in the machine counts twice as much"),
+      of_another(polymer, kStiffer, "a specimen with a polymer four times as stiff",
+                 "a compliance in series counts four times as much, geometry as before"),
+      {"another specimen, ten times as slowly", "only what takes time depends on the rate", 1.2, slower}};
   all.insert(all.end(), tests.begin(), tests.end());
 }
 

@@ -229,22 +229,24 @@ Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
 /// stiffness where one is stated: at the gap at which they were made (origin = "made"; gap_um, the sample's
 /// where it is not stated, within gap_sigma_um), or with the specimen's gaps (origin = "specimen").
 const Kind& kinds::bridge_stiffness() {
-  static const Kind kind{.name = "bridge_stiffness",
-                         .required = {"d_um", "D_um"},
-                         .optional = {"kn_n_per_m", "kn_sigma_n_per_m", "kt_n_per_m", "kt_sigma_n_per_m"},
-                         .scale = Scale::bridge,
-                         .keys = {{"origin", {"made", "specimen"}},
-                                  {"gap_um", {}, 0.0, 1e3, 0.0},
-                                  {"gap_sigma_um", {}, 0.0, 1e3, 0.0}},
-                         .usual = UsualMeasurement{"twenty single bridges by micropipettes", "stiffness and course of a bridge without the network", 1.0},
-                         .of_bridges = true,
-                         .check = check,
-                         .simulate = simulate,
-                         .landmarks = landmarks,
-                         .perturbed = perturbed,
-                         .planned = planned,
-                         .shown = shown,
-                         .model_error = model_error};
+  static const Kind kind{
+      .name = "bridge_stiffness",
+      .required = {"d_um", "D_um"},
+      .optional = {"kn_n_per_m", "kn_sigma_n_per_m", "kt_n_per_m", "kt_sigma_n_per_m"},
+      .scale = Scale::bridge,
+      .keys = {{"origin", {"made", "specimen"}},
+               {"gap_um", {}, 0.0, 1e3, 0.0},
+               {"gap_sigma_um", {}, 0.0, 1e3, 0.0}},
+      .usual = UsualMeasurement{"twenty single bridges by micropipettes",
+                                "stiffness and course of a bridge without the network", 1.0},
+      .of_bridges = true,
+      .check = check,
+      .simulate = simulate,
+      .landmarks = landmarks,
+      .perturbed = perturbed,
+      .planned = planned,
+      .shown = shown,
+      .model_error = model_error};
   return kind;
 }
 

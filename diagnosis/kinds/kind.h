@@ -52,23 +52,26 @@ struct Kind {
   std::function<void(Observation& observation, const CsvTable& table)> read = nullptr;
   /// BadInput for what cannot be: a wrong unit, a sign, an order. What is odd but usable goes into
   /// `warnings`.
-  std::function<void(const Sample& believed, Observation& observation,
-                std::vector<std::string>& warnings)> check = nullptr;
+  std::function<void(const Sample& believed, Observation& observation, std::vector<std::string>& warnings)>
+      check = nullptr;
   /// Adds what its test must show to the course of the simulated one; null: needs none.
   std::function<void(const Observation& observation, Sample::Compression& course)> course = nullptr;
   /// The columns that the observation would have had.
   std::function<Columns(const Observation& observation, const Simulated& simulated)> simulate = nullptr;
   /// What a reader looks at, and what words are made of.
-  std::function<std::vector<Feature>(const Observation& observation, const Columns& columns)> landmarks = nullptr;
+  std::function<std::vector<Feature>(const Observation& observation, const Columns& columns)> landmarks =
+      nullptr;
   /// All that the columns say, at places that the observation fixes; null: the landmarks.
-  std::function<std::vector<Feature>(const Observation& observation, const Columns& columns)> readings = nullptr;
+  std::function<std::vector<Feature>(const Observation& observation, const Columns& columns)> readings =
+      nullptr;
   /// A displacement of every bead that was followed, without rigid motion and scale, m; three rows a bead.
   std::function<Eigen::VectorXd(const Observation& observation, const Columns& columns)> field = nullptr;
   /// Columns as another measurement of the same might have them.
   std::function<Columns(const Observation& observation, unsigned long seed)> perturbed = nullptr;
   /// Columns of such a measurement as it is usually made, up to a platen strain: where it reads and with
   /// which errors; what it will show is only rough. Null: it is not planned.
-  std::function<Columns(const Observation& observation, const Sample& believed, double strain)> planned = nullptr;
+  std::function<Columns(const Observation& observation, const Sample& believed, double strain)> planned =
+      nullptr;
   /// The planned columns once a simulation tells what they would show.
   std::function<Columns(const Observation& planned, const Columns& simulated)> shown = nullptr;
   /// Covariance of what the simulation itself may be off in these features, as they are compared.
@@ -79,8 +82,8 @@ struct Kind {
 /// its line in list.cpp.
 const std::vector<const Kind*>& all_kinds();
 
-/// A kind that is no part of the library, at the end of the list as long as this lives. Add it before anything
-/// reads an experiment and remove it after, on one thread.
+/// A kind that is no part of the library, at the end of the list as long as this lives. Add it before
+/// anything reads an experiment and remove it after, on one thread.
 class AddedKind {
  public:
   /// The kind must outlive this. BadInput where its name is empty or known already, or it lacks columns or

@@ -40,8 +40,8 @@ TEST(Process, WorksInItsFolderWithoutInputAndGetsTheDescriptorHanded) {
   const ScratchFolder folder;
   int ends[2];
   ASSERT_EQ(::pipe(ends), 0);
-  EXPECT_EQ(run(shell("pwd >here; cat >input; echo handed >&3"), {.folder = folder.path(), .handed = ends[1]}),
-            0);
+  EXPECT_EQ(
+      run(shell("pwd >here; cat >input; echo handed >&3"), {.folder = folder.path(), .handed = ends[1]}), 0);
   char text[16] = {};
   EXPECT_EQ(::read(ends[0], text, sizeof text), 7);
   EXPECT_STREQ(text, "handed\n");
@@ -78,7 +78,11 @@ TEST(RunApart, ComesBackWithWhatWasReturnedAndSurvivesTheCopy) {
   EXPECT_EQ(said.text, std::string(100000, 'x'));
   EXPECT_EQ(said.status, 0);
   EXPECT_EQ(here, 1);
-  EXPECT_EQ(run_apart([]() -> std::string { std::raise(SIGKILL), ::pause(); return ""; }).status, 137);
+  EXPECT_EQ(run_apart([]() -> std::string {
+              std::raise(SIGKILL), ::pause();
+              return "";
+            }).status,
+            137);
   EXPECT_EQ(run_apart([]() -> std::string { throw BadInput("lost"); }).status, 1);
 }
 

@@ -155,8 +155,8 @@ TEST(Checkpoint, ResumedFromTheOneBeforeARunEndsWithTheSameBytes) {
          {"curve.csv", "events.csv", "avalanches.csv", "frames/frame_0002.vtp", "checkpoint"})
       whole[file] = sha256_of(folder / "run" / file);
     write_text(folder / "run" / "checkpoint", "damaged");
-    const RunState before = read_checkpoint(folder / "run" / "checkpoint.previous",
-                                            work_identity(disordered(3, 3), sample, ""));
+    const RunState before =
+        read_checkpoint(folder / "run" / "checkpoint.previous", work_identity(disordered(3, 3), sample, ""));
     ASSERT_FALSE(before.finished);
     EXPECT_EQ(before.platen.holding, std::string(name) == "holding");
     options.resume = true;

@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "dem_core/checkpoint.h"
-#include "dem_core/run_folder.h"
+#include "dem_core/run_result.h"
 #include "dem_core/step/stepper.h"
 #include "micromechanics/stiffness.h"
 #include "packing/polydata.h"

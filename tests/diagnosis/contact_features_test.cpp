@@ -65,7 +65,8 @@ TEST(ContactFeatures, AreWhatTheErrorsMakeOfTheTables) {
     const char* telling = effect == std::string("diameter_bias") ? "contact_gap_um" : "contact_variance_um2";
     EXPECT_GT(std::fabs(named(seen, telling).feature.value - named(believed, telling).feature.value),
               4.0 * named(seen, telling).sigma);
-    EXPECT_NEAR(effects::find_effect(effect, "test").shown_by_beads(*peak).value(), theta, 0.15 * std::fabs(theta));
+    EXPECT_NEAR(effects::find_effect(effect, "test").shown_by_beads(*peak).value(), theta,
+                0.15 * std::fabs(theta));
   }
 }
 

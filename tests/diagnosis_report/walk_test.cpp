@@ -63,9 +63,10 @@ diagnosis::Kind ends_of_bridges() {
           .shown = [](const Observation& planned, const Columns& simulated) -> Columns {
             return {{"ends", simulated.at("ends")}, {"ends_sigma", planned.column("ends_sigma")}};
           },
-          .model_error = [](const std::vector<Feature>& features) {
-            return errors_by_name(features, {{"ends_per_bead", 0.01}});
-          }};
+          .model_error =
+              [](const std::vector<Feature>& features) {
+                return errors_by_name(features, {{"ends_per_bead", 0.01}});
+              }};
 }
 
 /// A toy specimen with the effect, observed by a curve and by the kind.
@@ -139,7 +140,10 @@ TEST(AddedKind, WhatCannotBeOneIsRefused) {
   EXPECT_THROW(AddedKind{kind}, BadInput);
   const std::size_t count = diagnosis::all_kinds().size();
   kind = ends_of_bridges();
-  { const AddedKind added{kind}; EXPECT_EQ(diagnosis::all_kinds().size(), count + 1); }
+  {
+    const AddedKind added{kind};
+    EXPECT_EQ(diagnosis::all_kinds().size(), count + 1);
+  }
   EXPECT_EQ(diagnosis::all_kinds().size(), count);
 }
 

@@ -12,18 +12,18 @@ using test::ScratchFolder;
 
 /// Two voxels that a text spells: "toy 1 2".
 VolumeFormat toy() {
-  return {.name = "toy of two voxels (.toy)",
-          .recognises = [](const fs::path& path,
-                           const ReadOptions&) { return lower_extension(path) == ".toy"; },
-          .read =
-              [](const fs::path& path, const ReadOptions&) {
-                std::string text = read_text(path);
-                Volume volume;
-                volume.size = {2, 1, 1};
-                volume.pixels = std::vector<std::uint8_t>{static_cast<std::uint8_t>(text.at(4)),
-                                                          static_cast<std::uint8_t>(text.at(6))};
-                return volume;
-              }};
+  return {
+      .name = "toy of two voxels (.toy)",
+      .recognises = [](const fs::path& path, const ReadOptions&) { return lower_extension(path) == ".toy"; },
+      .read =
+          [](const fs::path& path, const ReadOptions&) {
+            std::string text = read_text(path);
+            Volume volume;
+            volume.size = {2, 1, 1};
+            volume.pixels = std::vector<std::uint8_t>{static_cast<std::uint8_t>(text.at(4)),
+                                                      static_cast<std::uint8_t>(text.at(6))};
+            return volume;
+          }};
 }
 
 std::string refusal_of(const fs::path& path) {
