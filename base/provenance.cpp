@@ -1,7 +1,7 @@
 #include "base/provenance.h"
 
-#include <nlohmann/json.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -9,10 +9,6 @@ namespace pendular {
 
 void Provenance::add_input(const fs::path& path) {
   inputs.push_back({path.string(), sha256_of(path)});
-}
-
-std::string program_version() {
-  return PENDULAR_VERSION;
 }
 
 nlohmann::ordered_json to_json(const Provenance& provenance) {

@@ -25,6 +25,8 @@ struct Provenance {
   void add_input(const fs::path& path);
 };
 
+/// `git describe` of the sources, or the project's version where they are no repository. Hashes have
+/// kModelVersion in its place (base/model_version.h).
 std::string program_version();
 
 /// {"version":…, "command":…, "seed":…, "inputs":[{"path":…,"sha256":…}]}

@@ -102,21 +102,51 @@ const std::vector<NumberKey>& number_keys() {
   return keys;
 }
 
+template <>
+const std::vector<std::string>& words_for<Diameters>() {
+  static const std::vector<std::string> words = {"auto", "measured", "drawn"};
+  return words;
+}
+template <>
+const std::vector<std::string>& words_for<StiffnessOf>() {
+  static const std::vector<std::string> words = {"one", "per_bridge"};
+  return words;
+}
+template <>
+const std::vector<std::string>& words_for<TangentialSprings>() {
+  static const std::vector<std::string> words = {"one", "two"};
+  return words;
+}
+template <>
+const std::vector<std::string>& words_for<Control>() {
+  static const std::vector<std::string> words = {"speed", "stress", "relaxation"};
+  return words;
+}
+
+std::string to_string(Diameters value) {
+  return words_for<Diameters>().at(static_cast<std::size_t>(value));
+}
+std::string to_string(StiffnessOf value) {
+  return words_for<StiffnessOf>().at(static_cast<std::size_t>(value));
+}
+std::string to_string(TangentialSprings value) {
+  return words_for<TangentialSprings>().at(static_cast<std::size_t>(value));
+}
+std::string to_string(Control value) {
+  return words_for<Control>().at(static_cast<std::size_t>(value));
+}
+
 const std::vector<WordKey>& word_keys() {
+#define PENDULAR_WORD(type, field)                                       \
+  words_for<type>(), [](const Sample& s) { return to_string(s.field); }, \
+      [](Sample& s, std::size_t which) { s.field = static_cast<type>(which); }
   static const std::vector<WordKey> keys = {
-      {"beads.diameters",
-       {"auto", "measured", "drawn"},
-       [](Sample& s) -> std::string& { return s.beads.diameters; }},
-      {"bridges.stiffness",
-       {"one", "per_bridge"},
-       [](Sample& s) -> std::string& { return s.bridges.stiffness; }},
-      {"contact.tangential_springs",
-       {"one", "two"},
-       [](Sample& s) -> std::string& { return s.contact.tangential_springs; }},
-      {"compression.control",
-       {"speed", "stress", "relaxation"},
-       [](Sample& s) -> std::string& { return s.compression.control; }},
+      {"beads.diameters", PENDULAR_WORD(Diameters, beads.diameters)},
+      {"bridges.stiffness", PENDULAR_WORD(StiffnessOf, bridges.stiffness)},
+      {"contact.tangential_springs", PENDULAR_WORD(TangentialSprings, contact.tangential_springs)},
+      {"compression.control", PENDULAR_WORD(Control, compression.control)},
   };
+#undef PENDULAR_WORD
   return keys;
 }
 
@@ -233,9 +263,10 @@ std::optional<double> NumberKey::get(const Sample& sample) const {
 }
 
 void WordKey::set(Sample& sample, const std::string& word, const std::string& where) const {
-  if (std::find(allowed.begin(), allowed.end(), word) == allowed.end())
+  const auto found = std::find(allowed.begin(), allowed.end(), word);
+  if (found == allowed.end())
     bad_input("{}: found \"{}\", expected one of \"{}\"", where, word, fmt::join(allowed, "\", \""));
-  field(sample) = word;
+  assign(sample, static_cast<std::size_t>(found - allowed.begin()));
 }
 
 std::vector<SampleKey> sample_keys() {

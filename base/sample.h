@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/files.h"
+#include "base/sample_words.h"
 
 namespace pendular {
 
@@ -22,9 +23,7 @@ struct Sample {
     double diameter_sd = 1.9e-6;   ///< true spread of the batch, m
     double realisation_sd = 0.05;  ///< spread of drawn diameters, share of the mean (paper, Sec. 3.2.1)
     double density = 2540.0;       ///< kg/m3
-    std::string diameters =
-        "auto";  ///< "measured": as they are in the packing; "drawn" anew as the paper does; "auto": measured
-                 ///< where their errors are stated, else drawn (packing/measurement.h)
+    Diameters diameters = Diameters::automatic;
   } beads;
 
   struct Bridges {
@@ -39,8 +38,7 @@ struct Sample {
     std::optional<double> relaxation_time;   ///< of the polymer, s; see effects/polymer_viscoelasticity.cpp
     std::optional<double> normal_stiffness;  ///< kn, N/m
     std::optional<double> tangential_stiffness;  ///< kt, N/m
-    std::string stiffness =
-        "one";  ///< "one": all bonds the same, as the paper; "per_bridge": each from its own gap and diameter
+    StiffnessOf stiffness = StiffnessOf::one;
   } bridges;
 
   struct Contact {
@@ -49,8 +47,7 @@ struct Sample {
     double platen_friction = 0.5;     ///< μ between beads and platens
     double damping_fraction = 0.1;    ///< ζ over the critical damping of two mean beads in touch
     double time_step_fraction = 0.2;  ///< time step over √(m_min/k_max)
-    std::string tangential_springs =
-        "two";  ///< "two": bond kt and contact 10 kt apart; "one": one whose stiffness jumps at touch
+    TangentialSprings tangential_springs = TangentialSprings::two;
     bool bond_friction_limit = true;  ///< Coulomb limit μ|F^n| also on the bond's tangential force
   } contact;
 
@@ -61,10 +58,9 @@ struct Sample {
   } specimen;
 
   struct Compression {
-    double speed = 1e-4;                ///< platen speed over D √(k_glass/m)
-    std::optional<double> speed_si;     ///< m/s; overrides `speed`
-    std::string control = "speed";      ///< of the moving platen: "speed"; "stress": a ramp of stress;
-                                        ///< "relaxation": increments, the specimen at rest after each
+    double speed = 1e-4;             ///< platen speed over D √(k_glass/m)
+    std::optional<double> speed_si;  ///< m/s; overrides `speed`
+    Control control = Control::speed;
     double relax_increment = 1e-3;      ///< strain of an increment
     double relax_to = 1e-3;             ///< unbalanced force that counts as rest
     std::optional<double> stress_rate;  ///< of that ramp, Pa/s

@@ -30,8 +30,9 @@ struct NumberKey {
 
 struct WordKey {
   std::string name;
-  std::vector<std::string> allowed;
-  std::string& (*field)(Sample&);
+  std::vector<std::string> allowed;  ///< in the order of the type's values
+  std::string (*field)(const Sample&);
+  void (*assign)(Sample&, std::size_t which);  ///< of `allowed`
 
   /// BadInput, opening with `where`, for a word that is not allowed.
   void set(Sample& sample, const std::string& word, const std::string& where) const;

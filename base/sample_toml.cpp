@@ -20,18 +20,19 @@ void check_together(const Sample& sample, const std::string& file) {
     bad_input(
         "{}: bridges: normal_stiffness_n_per_m and tangential_stiffness_n_per_m: expected both or neither",
         file);
-  if (sample.bridges.normal_stiffness && sample.bridges.stiffness == "per_bridge")
+  if (sample.bridges.normal_stiffness && sample.bridges.stiffness == StiffnessOf::per_bridge)
     bad_input(
         "{}: bridges.stiffness = \"per_bridge\" and bridges.normal_stiffness_n_per_m: expected one of them, "
         "because a given stiffness is the same for all bonds",
         file);
   const auto& compression = sample.compression;
-  if ((compression.control == "stress") != compression.stress_rate.has_value())
+  if ((compression.control == Control::stress) != compression.stress_rate.has_value())
     bad_input(
         "{}: compression.control = \"{}\" {} compression.stress_rate_pa_s: expected control = \"stress\" and "
         "the rate of its ramp, or neither",
-        file, compression.control, compression.stress_rate ? "with" : "without");
-  if (compression.control != "speed" && !(compression.unload_at.empty() && compression.hold_at.empty()))
+        file, to_string(compression.control), compression.stress_rate ? "with" : "without");
+  if (compression.control != Control::speed &&
+      !(compression.unload_at.empty() && compression.hold_at.empty()))
     bad_input("{}: compression.unload_at and compression.hold_at: expected only where control is \"speed\"",
               file);
   if (sample.phantom.bits != 8.0 && sample.phantom.bits != 16.0)

@@ -48,15 +48,15 @@ std::vector<std::string> diagnose_cases(const CaseFolders& folders, const Diagno
   for (const auto& name : all) {
     const fs::path report = request.reports / name;
     if (fs::exists(report / "diagnosis.json")) continue;
-    Job job{{"diagnose", (folders.open(name) / "experiment.toml").string(), "-o", report.string(), "--store",
-             request.store.string()},
+    Job job{request.diagnose.with({(folders.open(name) / "experiment.toml").string(), "-o", report.string(),
+                                   "--store", request.store.string()}),
             request.reports / (name + ".log")};
     if (request.without_truth) {
       const std::string effects = true_effects(folders, name);
       if (effects.empty()) continue;
-      job.words.insert(job.words.end(), {"--leave-out", effects});
+      job.command = job.command.with({"--leave-out", effects});
     }
-    job.words.insert(job.words.end(), request.options.begin(), request.options.end());
+    job.command = job.command.with(request.options);
     names.push_back(name);
     jobs.push_back(std::move(job));
   }

@@ -1,6 +1,7 @@
 #include "blind/engine.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "base/error.h"
@@ -10,6 +11,14 @@ namespace pendular::blind {
 namespace {
 
 constexpr double kYadeDamping = 0.2;  // of accelerations, in place of dashpots
+// Effects that it has: coded in its scripts (blind/yade) or, of the measurement, made by the project's own
+// code. No other one is drawn for it.
+constexpr std::array kOfYade = {"bridge_gap_spread", "bridge_diameter_spread", "missing_bridges",
+                                "bridge_bending",    "polymer_nonlinearity",   "polymer_viscoelasticity",
+                                "bond_damage",       "interface_strength",     "residual_stress",
+                                "bead_friction",     "platen_friction",        "platen_tilt",
+                                "platen_roughness",  "machine_compliance",     "voxel_scale",
+                                "loading_rate",      "position_error",         "diameter_bias"};
 
 }  // namespace
 
@@ -43,8 +52,7 @@ const Engine& find_engine(const std::string& name, const std::string& where) {
 }
 
 bool has_effect(const Engine& engine, const std::string& effect) {
-  // All but the share of polymer above W*, which is not a property of one run.
-  return !engine.outside() || effect != "funicular_bridges";
+  return !engine.outside() || std::find(kOfYade.begin(), kOfYade.end(), effect) != kOfYade.end();
 }
 
 }  // namespace pendular::blind

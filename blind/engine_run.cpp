@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "dem_core/bond_bodies.h"
 #include "dem_core/simulation.h"
+#include "effects/list.h"
 #include "micromechanics/stiffness.h"
 
 namespace pendular::blind {
@@ -58,8 +59,10 @@ ordered_json flat_stiffness(const BridgeBody& mean) {
 /// Likewise, rows by gap, columns by neck; by finite elements where some effect does.
 ordered_json stiffness_json(const Sample& sample) {
   const BridgeBody mean = mean_bridge(sample);
-  if (!sample.effects.contains("bridge_gap_spread") && !sample.effects.contains("bridge_diameter_spread"))
-    return flat_stiffness(mean);
+  const bool changed = std::any_of(sample.effects.begin(), sample.effects.end(), [](const auto& item) {
+    return effects::find_effect(item.first, "engine").body != nullptr;
+  });
+  if (!changed) return flat_stiffness(mean);
   const double longest = std::max(kLongest * sample.beads.diameter, 1.1 * mean.gap);
   const double thinnest = kThinnest * mean.neck_diameter, thickest = kThickest * sample.beads.diameter;
   ordered_json gaps = ordered_json::array(), necks = ordered_json::array();
@@ -190,9 +193,9 @@ EngineResult result_of(const json& read, std::size_t beads, std::size_t frames) 
 }  // namespace
 
 std::string run_text(const EngineRun& run) {
-  if (run.sample.bridges.stiffness != "one")
+  if (run.sample.bridges.stiffness != StiffnessOf::one)
     bad_input("engine {}: found bridges.stiffness = \"{}\", expected \"one\"", run.engine.name,
-              run.sample.bridges.stiffness);
+              to_string(run.sample.bridges.stiffness));
   ordered_json effects = ordered_json::object();
   for (const auto& [id, theta] : run.sample.effects) effects[id] = theta;
   ordered_json diameters = ordered_json::array();

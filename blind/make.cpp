@@ -29,7 +29,7 @@ void write_seals(const CaseFolders& folders, const std::vector<CasePlan>& plans)
 }  // namespace
 
 void make_split(const CaseFolders& folders, const Split& split, std::size_t cores,
-                const std::function<std::vector<std::string>(std::size_t number)>& words_of) {
+                const std::function<Command(std::size_t number)>& command_of) {
   const auto plans = plan_of(split);
   const auto numbers = missing(folders, split, plans);
   for (const std::size_t number : numbers)
@@ -37,7 +37,7 @@ void make_split(const CaseFolders& folders, const Split& split, std::size_t core
   make_folder(folders.root / "work");
   std::vector<Job> jobs;
   for (const std::size_t number : numbers)
-    jobs.push_back({words_of(number), folders.log(plans[number].name)});
+    jobs.push_back({command_of(number), folders.log(plans[number].name)});
   Progress progress("blind make", static_cast<double>(plans.size()));
   std::size_t made = plans.size() - numbers.size(), failed = 0;
   std::string told;

@@ -8,7 +8,6 @@
 #include "base/random.h"
 #include "blind/engine.h"
 #include "blind/mechanism.h"
-#include "diagnosis/experiment/funicular.h"
 #include "effects/list.h"
 
 namespace pendular::blind {
@@ -73,8 +72,7 @@ std::array<std::size_t, kStrata> counts_of(const Split& split) {
 
 /// Whether an effect can show in what is observed.
 bool can_show(const effects::Effect& effect, const Sample& sample) {
-  return effect.id != "funicular_bridges" ||
-         sample.bridges.polymer_content > 1.1 * diagnosis::kFunicularContent;
+  return !effect.inert_in || effect.inert_in(sample).empty();
 }
 
 double draw_theta(const effects::Effect& effect, Dice& dice) {

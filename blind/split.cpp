@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/model_version.h"
 #include "base/nearest.h"
-#include "base/provenance.h"
 #include "base/toml_place.h"
 #include "blind/engine.h"
 #include "diagnosis/experiment/believed.h"
@@ -156,12 +156,12 @@ void check(const Split& split) {
   if (split.unload_at >= split.max_strain)
     bad_input("{}: test.unload_at: found {}, expected less than max_strain {}", file, split.unload_at,
               split.max_strain);
-  if (split.sample.beads.diameters != "measured")
+  if (split.sample.beads.diameters != Diameters::measured)
     bad_input("{}: its sample has beads.diameters = \"{}\", expected \"measured\"", file,
-              split.sample.beads.diameters);
-  if (split.sample.compression.control != "speed")
+              to_string(split.sample.beads.diameters));
+  if (split.sample.compression.control != Control::speed)
     bad_input("{}: its sample has compression.control = \"{}\", expected \"speed\"", file,
-              split.sample.compression.control);
+              to_string(split.sample.compression.control));
   if (!split.sample.effects.empty()) bad_input("{}: its sample has [effects], expected none", file);
 }
 
@@ -210,7 +210,7 @@ Split read_split(const fs::path& path, std::optional<std::uint64_t> seed) {
   if (seed) split.seed = *seed;
   check(split);
   split.content =
-      sha256(fmt::format("{}\n{}\n{}\n{}", program_version(), split.seed, text, sample_text(split.sample)));
+      sha256(fmt::format("{}\n{}\n{}\n{}", kModelVersion, split.seed, text, sample_text(split.sample)));
   return split;
 }
 

@@ -13,6 +13,7 @@
 #include "packing/bridges.h"
 #include "packing/generate.h"
 #include "packing/polydata.h"
+#include "run_folder/frame.h"
 
 namespace pendular::blind {
 namespace {
@@ -53,14 +54,12 @@ std::uint64_t run_seed(const CasePlan& plan, std::uint64_t number) {
 }
 
 Scan read_scan(const fs::path& path) {
-  constexpr std::int64_t kBond = 0;  // of a frame's lines
-  const PolyTable frame = read_polydata(path);
-  const auto state = integers(frame, false, "state", path);
+  const RunFrame frame = run_frame(read_polydata(path), path);
   Scan scan;
-  for (const Vec3& moved : vectors(frame, true, "displacement_um", path))
-    scan.displacement.push_back(1e-6 * moved);
-  for (std::size_t k = 0; k < frame.lines.size(); ++k)
-    if (state[k] == kBond) scan.standing.insert(std::minmax(frame.lines[k][0], frame.lines[k][1]));
+  scan.displacement = frame.displacement;
+  for (std::size_t k = 0; k < frame.pairs.size(); ++k)
+    if (frame.lines[k] == RunFrame::Line::bond)
+      scan.standing.insert(std::minmax(frame.pairs[k][0], frame.pairs[k][1]));
   return scan;
 }
 
@@ -114,7 +113,7 @@ class Bench {
     fs::remove_all(scratch_);
     make_folder(scratch_.parent_path());
     auto rows = effects::compress_with_effects(beads_, sample, seed_, scratch_, hooks(plan_)).rows;
-    if (scan) *scan = read_scan(scratch_ / "frames" / "frame_0000.vtp");
+    if (scan) *scan = read_scan(frame_files(scratch_).at(0));
     fs::remove_all(scratch_);
     return rows;
   }

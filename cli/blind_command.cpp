@@ -8,6 +8,7 @@
 #include "blind/oracle.h"
 #include "blind/score_files.h"
 #include "cli/command.h"
+#include "cli/own_program.h"
 #include "cli/run_making.h"
 
 namespace pendular::cli {
@@ -31,15 +32,9 @@ void make(const MakeOptions& options) {
   make_folder(folders.root);
   say(blind::work_ahead(folders, split, thread_count()));
   blind::make_split(folders, split, thread_count(), [&](std::size_t number) {
-    return std::vector<std::string>{"blind-case",
-                                    options.file.string(),
-                                    std::to_string(number),
-                                    "--seed",
-                                    std::to_string(split.seed),
-                                    "--threads",
-                                    "1",
-                                    "-o",
-                                    options.common.out.string()};
+    return Command{own_program(),
+                   {"blind-case", options.file.string(), std::to_string(number), "--seed",
+                    std::to_string(split.seed), "--threads", "1", "-o", options.common.out.string()}};
   });
   say(fmt::format("{}: {} cases in {}, their truth in {}", split.name, split.cases,
                   (folders.root / "cases").string(), (folders.root / "sealed").string()));
@@ -87,6 +82,7 @@ void diagnose(DiagnoseOptions options, std::vector<std::string> further) {
   further.insert(further.end(), {"--threads", std::to_string(options.common.threads), "--seed",
                                  std::to_string(options.common.seed)});
   options.request.reports = options.common.out;
+  options.request.diagnose = {own_program(), {"diagnose"}};
   options.request.options = std::move(further);
   if (options.request.store.empty()) options.request.store = options.common.out / "store";
   const auto failed = blind::diagnose_cases({options.folder}, options.request);

@@ -78,11 +78,11 @@ void run(const Options& options) {
                                                      compress_options);
     return say(in_words(done.result));
   }
-  if (diameters_used(sample, packing.beads) == "measured")
+  if (diameters_used(sample, packing.beads) == Diameters::measured)
     throw BadUsage(fmt::format(
         "--realisations: beads.diameters = \"{}\" takes them as measured, so that all realisations "
         "would be the same; expected \"drawn\" in {}",
-        sample.beads.diameters, options.sample.string()));
+        to_string(sample.beads.diameters), options.sample.string()));
   std::vector<nlohmann::ordered_json> results;
   make_folder(options.common.out);
   for (int k = 1; k <= options.realisations; ++k) {

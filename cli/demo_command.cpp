@@ -69,7 +69,7 @@ void run(const Common& common) {
   const BeadComparison beads =
       compare_beads(read_packing(out / "truth.vtp").beads, read_beads(out / "beads.csv"));
   viz::RenderOptions render;
-  render.provenance = provenance(common, viz::picture_inputs(out / "run"));
+  render.provenance = provenance(common, picture_inputs(out / "run"));
   const auto summary = viz::render_run(out / "run", out / "pictures", render);
   viz::Report report;
   report.title = "pendular demo: from a tomogram to the shear band";

@@ -1,5 +1,5 @@
-#include <nlohmann/json.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 
@@ -63,7 +63,7 @@ void run(const Options& options) {
   const Simulation simulation = effects::actual_simulation(specimen);
   const LinearResponse response = linear_response(simulation, {options.strain});
   auto json = to_json(response, simulation, options.strain);
-  json["diameters"] = specimen.sample.beads.diameters;
+  json["diameters"] = to_string(specimen.sample.beads.diameters);
   json["provenance"] = to_json(provenance(options.common, {options.packing, options.sample}));
   write_text(options.common.out, json.dump(2) + "\n");
   say(in_words(response, options.strain));

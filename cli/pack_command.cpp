@@ -69,7 +69,7 @@ void check_extent(const Packing& packing) {
 std::vector<Bead> measured_beads(const PackOptions& options, const Sample& sample) {
   std::vector<Bead> beads = read_beads(options.beads);
   check_unit(options, beads, sample);
-  if (diameters_used(sample, beads) == "measured") check_overlaps(beads, options.beads.string());
+  if (diameters_used(sample, beads) == Diameters::measured) check_overlaps(beads, options.beads.string());
   return beads;
 }
 
@@ -99,7 +99,7 @@ Packing packing_for(const PackOptions& options, const Sample& sample, const std:
 /// What closing their contacts did to the beads of a table; nothing where none are closed.
 std::optional<Closing> closing_of(const Sample& sample, const std::vector<Bead>& measured,
                                   const Packing& packing) {
-  if (!states_errors(measured) || diameters_used(sample, measured) == "drawn") return std::nullopt;
+  if (!states_errors(measured) || diameters_used(sample, measured) == Diameters::drawn) return std::nullopt;
   const Closing found = closing(measured, packing.beads);
   if (found.rms_over_errors > kLargestClosing)
     warn(
@@ -116,16 +116,17 @@ nlohmann::ordered_json to_json(const Closing& closing) {
           {"rms_over_stated_errors", closing.rms_over_errors}};
 }
 
-std::string use_in_words(const Sample& sample, const std::string& diameters,
-                         const std::optional<Closing>& closed) {
+std::string use_in_words(const Sample& sample, Diameters diameters, const std::optional<Closing>& closed) {
   if (closed)
     return fmt::format(
         "diameters as measured: {} contacts closed by moving centres by {:.3f} um along each axis "
         "and changing diameters by {:.3f} um (rms; {:.2f} of the stated errors)",
         closed->contacts, 1e6 * closed->centre_rms, 1e6 * closed->diameter_rms, closed->rms_over_errors);
-  if (diameters == "measured") return "diameters as they are: no errors are stated, no contacts closed";
-  return fmt::format("diameters are drawn when compressed: {}",
-                     sample.beads.diameters == "auto" ? "no errors are stated" : "the sample asks for it");
+  if (diameters == Diameters::measured)
+    return "diameters as they are: no errors are stated, no contacts closed";
+  return fmt::format("diameters are drawn when compressed: {}", sample.beads.diameters == Diameters::automatic
+                                                                    ? "no errors are stated"
+                                                                    : "the sample asks for it");
 }
 
 void report(const PackingStatistics& s) {
@@ -160,9 +161,9 @@ void run(const PackOptions& options) {
   const Structure structure = structure_of(packing);
   if (!options.generate) check_scale(packing.beads, structure, sample);
   json["structure"] = to_json(structure);
-  const std::string diameters = diameters_used(sample, packing.beads);
+  const Diameters diameters = diameters_used(sample, packing.beads);
   const auto closed = closing_of(sample, measured, packing);
-  json["diameters"] = diameters;
+  json["diameters"] = to_string(diameters);
   if (closed) json["closed_contacts"] = to_json(*closed);
   json["provenance"] = to_json(packing.provenance);
   WrittenTogether written;

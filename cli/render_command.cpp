@@ -21,12 +21,12 @@ struct Options {
 
 void render(Options& options) {
   apply(options.common, {});
-  for (const auto& input : viz::picture_inputs(options.run))
+  for (const auto& input : picture_inputs(options.run))
     protect_also(fs::is_directory(input) ? files_in(input) : std::vector{input});
   const fs::path out = options.common.out.empty() ? options.run / "pictures" : options.common.out;
   if (options.common.out.empty()) make_inner_folder(out);
   options.render.film = !options.no_film;
-  options.render.provenance = provenance(options.common, viz::picture_inputs(options.run));
+  options.render.provenance = provenance(options.common, picture_inputs(options.run));
   const auto summary = viz::render_run(options.run, out, options.render);
   viz::write_report(out / "report.html", {"Compression of " + fs::canonical(options.run).filename().string(),
                                           viz::compression_summary(summary),

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "cli/own_program.h"
 #include "sweep/estimate.h"
 
 namespace pendular::cli {
@@ -67,6 +68,7 @@ std::vector<sweep::RunOutcome> make_runs(const RunMaking& making, const Common& 
                                          std::span<const sweep::RunRequest> requests) {
   sweep::Store store(making.store_folder(common));
   sweep::ExecuteOptions how;
+  how.worker = {own_program(), {"sweep-run"}};
   how.cores = common.threads;
   how.retry_failed = making.retry_failed;
   if (making.executor == "slurm") how.slurm = sweep::SlurmOptions{making.slurm_options};

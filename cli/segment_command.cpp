@@ -8,6 +8,7 @@
 #include "packing/tables.h"
 #include "segmentation/qa/qa.h"
 #include "segmentation/segment.h"
+#include "volume/format.h"
 
 namespace pendular::cli {
 namespace {
@@ -141,11 +142,7 @@ void run(const Options& options) {
 void add_segment(CLI::App& app) {
   auto options = std::make_shared<Options>();
   auto* command = add_picture_command(app, "segment");
-  command
-      ->add_option("volume", options->volume,
-                   "MetaImage, NRRD, multi-page TIFF, folder of TIFF, PNG or DICOM slices, GE phoenix .pcr "
-                   "or .vol, or raw data")
-      ->required();
+  command->add_option("volume", options->volume, "Volume: " + format_names())->required();
   add_common(*command, options->common, "Beads (beads.csv); a summary goes beside it as .json");
   command->add_option("--voxel-um", options->voxel_um, "Edge of a voxel, um; overrides the header's")
       ->check(CLI::PositiveNumber);

@@ -1,5 +1,5 @@
-#include <nlohmann/json.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <Eigen/Geometry>
 #include <memory>
@@ -108,10 +108,10 @@ void draw(const Options& options, const std::vector<Bead>& before, const std::ve
   viz::Frame first = frame_of(before, motion, specimen_enclosing(before));
   first.position = motion.start;
   first.displacement.assign(first.position.size(), Vec3::Zero());
-  viz::RunResult result;
+  RunResult result;
   if (motion.band.found)
     result.band =
-        viz::ShearBand{motion.band.normal, motion.band.point, motion.band.thickness, motion.band.contrast};
+        ShearPlane{motion.band.normal, motion.band.point, motion.band.thickness, motion.band.contrast};
   const viz::Stage stage = viz::make_stage(first, frame, result);
   const viz::Display display;
   for (const char* name : {"displacement_cut", "shear_strain"}) {

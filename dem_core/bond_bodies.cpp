@@ -17,7 +17,7 @@ std::vector<BridgeBody> bond_bodies(const Packing& packing, const std::vector<Br
   std::vector<BridgeBody> bodies;
   for (const auto& bridge : standing) {
     const Bead &a = packing.beads[bridge.i], &b = packing.beads[bridge.j];
-    const bool own = sample.bridges.stiffness == "per_bridge" && bridge.diameter > 0.0;
+    const bool own = sample.bridges.stiffness == StiffnessOf::per_bridge && bridge.diameter > 0.0;
     const double neck = own ? bridge.diameter : sample.bridges.diameter;
     bodies.push_back(
         {std::min(neck, 0.99 * std::min(a.diameter, b.diameter)), gap(a, b), a.diameter, b.diameter});

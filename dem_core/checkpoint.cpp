@@ -4,13 +4,14 @@
 #include <type_traits>
 
 #include "base/error.h"
+#include "base/model_version.h"
 #include "base/progress.h"
 
 namespace pendular {
 namespace {
 
 constexpr char kNewest[] = "checkpoint", kPrevious[] = "checkpoint.previous", kNext[] = "checkpoint.next";
-constexpr char kMagic[] = "pendular checkpoint 5\n";
+constexpr char kMagic[] = "pendular checkpoint 6\n";
 
 struct Writer {
   std::string bytes;
@@ -113,9 +114,7 @@ void visit(Archive& a, Simulation& s) {
 
 template <typename Archive>
 void visit(Archive& a, CurveRow& r) {
-  fields(a, r.strain, r.stress, r.stress_bottom, r.broken_bonds, r.kinetic, r.elastic, r.work, r.damped,
-         r.slipped, r.released, r.halted, r.coordination, r.lateral_strain, r.inertial_number,
-         r.unbalanced_force);
+  for (const auto& column : curve_columns()) a.scalar(r.*column.field);
 }
 
 template <typename Archive>
@@ -129,7 +128,27 @@ void visit(Archive& a, RunState& s) {
          s.open_row.bottom, s.open_row.steps);
 }
 
+/// Every field of a packing but its provenance.
+std::string content_of(const Packing& packing) {
+  Writer writer;
+  const auto add = [&](const auto&... values) { (writer.scalar(values), ...); };
+  add(packing.beads.size());
+  for (const auto& b : packing.beads)
+    add(b.id, b.centre.x(), b.centre.y(), b.centre.z(), b.diameter, b.sigma_centre, b.sigma_diameter,
+        b.quality, b.boundary);
+  for (const auto& b : packing.bridges)
+    add(b.i, b.j, b.gap, b.sigma_gap, b.probability, b.diameter, b.sigma_diameter, b.state);
+  const Specimen& s = packing.specimen;
+  add(s.diameter, s.height, s.axis_x, s.axis_y, s.bottom);
+  return writer.bytes;
+}
+
 }  // namespace
+
+std::string work_identity(const Packing& packing, const Sample& sample, const std::string& further) {
+  return sha256(fmt::format("model {}\n{}\n{}\n{}", kModelVersion, sha256(content_of(packing)),
+                            sample_text(sample), further));
+}
 
 void write_checkpoint(const fs::path& path, const RunState& state, const std::string& identity) {
   Writer writer;

@@ -4,12 +4,18 @@
 #include <string>
 
 #include "base/files.h"
+#include "base/sample.h"
 #include "dem_core/run_state.h"
+#include "packing/packing.h"
 
 namespace pendular {
 
-/// Writes everything a run needs to go on bitwise as if never stopped. `identity` names the work (inputs,
-/// seed).
+/// Names the work of a run: the hash of what is compressed and how, and of the model's version. `further` is
+/// what changes it beside these, as the seed of what effects draw. Paths, commands and the program's version
+/// do not count.
+std::string work_identity(const Packing& packing, const Sample& sample, const std::string& further);
+
+/// Writes everything a run needs to go on bitwise as if never stopped. `identity` names the work.
 void write_checkpoint(const fs::path& path, const RunState& state, const std::string& identity);
 
 /// BadInput where the file is damaged (its checksum tells), of another format version, or of other work.

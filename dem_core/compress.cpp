@@ -14,7 +14,7 @@
 #include "dem_core/observe/frame.h"
 #include "dem_core/observe/lateral_strain.h"
 #include "dem_core/observe/quasi_static.h"
-#include "dem_core/run_folder.h"
+#include "dem_core/run_result.h"
 #include "dem_core/step/forces.h"
 #include "dem_core/step/stepper.h"
 #include "packing/bridges.h"
@@ -22,6 +22,7 @@
 #include "packing/measurement.h"
 #include "packing/statistics.h"
 #include "packing/touching.h"
+#include "run_folder/run_folder.h"
 
 namespace pendular {
 namespace {
@@ -85,7 +86,7 @@ class Test {
 
   void step() {
     write_due_frames();
-    if (sample_.compression.control == "relaxation") return relax();
+    if (sample_.compression.control == Control::relaxation) return relax();
     Simulation& s = state_.simulation;
     program_.drive(s, state_.platen);
     stepper_.step();
@@ -190,7 +191,7 @@ class Test {
   void write_next_frame() {
     const auto start = Clock::now();
     stepper_.store();
-    write_frame(folder_ / "frames" / fmt::format("frame_{:04d}.vtp", state_.frames_written),
+    write_frame(folder_ / run_file::kFrames / fmt::format("frame_{:04d}.vtp", state_.frames_written),
                 state_.simulation, ids_, last_stress(), sample_.observe);
     ++state_.frames_written;
     output_seconds_ += seconds_since(start);
@@ -266,15 +267,11 @@ Performance run(RunState& state, const Sample& sample, const CompressOptions& op
 
 /// What an earlier run in this folder has left must not pass for this one's.
 void remove_earlier_run(const fs::path& folder) {
-  for (const char* name : {"curve.csv", "events.csv", "avalanches.csv", "result.json"})
+  for (const char* name : {run_file::kCurve, run_file::kEvents, run_file::kAvalanches, run_file::kResult})
     remove_output(folder / name);
   remove_checkpoints(folder);
-  for (const auto& entry : fs::directory_iterator(folder / "frames"))
+  for (const auto& entry : fs::directory_iterator(folder / run_file::kFrames))
     if (entry.path().filename().string().starts_with("frame_")) remove_output(entry.path());
-}
-
-std::string identity_of(const Provenance& provenance) {
-  return sha256(to_json(provenance).dump());
 }
 
 AvalancheWindow window_of(const Simulation& simulation, const Sample& sample) {
@@ -296,7 +293,7 @@ void warn_unless_quasi_static(const std::vector<CurveRow>& rows) {
 }  // namespace
 
 Packing realise(const Packing& packing, const Sample& sample, std::uint64_t seed) {
-  if (diameters_used(sample, packing.beads) == "measured") return packing;
+  if (diameters_used(sample, packing.beads) == Diameters::measured) return packing;
   Packing drawn = packing;
   std::vector<Vec3> centres;
   for (const auto& bead : packing.beads) centres.push_back(bead.centre);
@@ -312,7 +309,7 @@ Packing realise(const Packing& packing, const Sample& sample, std::uint64_t seed
 
 CompressResult compress(const Packing& packing, const Sample& sample, const fs::path& folder,
                         const CompressOptions& options) {
-  const std::string identity = identity_of(options.provenance);
+  const std::string identity = work_identity(packing, sample, options.work);
   auto kept = options.resume ? kept_checkpoint(folder, identity) : std::nullopt;
   RunState state;
   if (kept) {
@@ -323,7 +320,7 @@ CompressResult compress(const Packing& packing, const Sample& sample, const fs::
     state.simulation.bond_memory.assign(options.evolution.memory * state.simulation.bonds.size(), 0.0);
     if (options.prepare) options.prepare(state.simulation);
   }
-  make_inner_folder(folder / "frames");
+  make_inner_folder(folder / run_file::kFrames);
   if (!kept) remove_earlier_run(folder);
   const auto ids = bead_ids(packing);
   const Performance performance = run(state, sample, options, folder, ids, identity);
@@ -335,7 +332,7 @@ CompressResult compress(const Packing& packing, const Sample& sample, const fs::
   result.result = result_json(state, sample, options.provenance);
   const auto found = avalanches(state.simulation.events, window_of(state.simulation, sample));
   result.result["avalanches"] = found.size();
-  result.result["diameters"] = diameters_used(sample, packing.beads);
+  result.result["diameters"] = to_string(diameters_used(sample, packing.beads));
   result.result["pairs_touching_at_start"] = touching_pairs(packing.beads);
   const Coordination interior = coordination(packing.beads, packing.bridges);
   result.result["coordination"] = {{"bridges_per_interior_bead", interior.mean},
@@ -346,10 +343,10 @@ CompressResult compress(const Packing& packing, const Sample& sample, const fs::
       {"wall_seconds", performance.wall_seconds},
       {"output_share",
        performance.wall_seconds > 0.0 ? performance.output_seconds / performance.wall_seconds : 0.0}};
-  write_curve(folder / "curve.csv", state.rows, options.provenance);
-  write_events(folder / "events.csv", state.simulation, ids, options.provenance);
-  write_avalanches(folder / "avalanches.csv", found, options.provenance);
-  write_text(folder / "result.json", result.result.dump(2) + "\n");
+  write_curve(folder / run_file::kCurve, state.rows, options.provenance);
+  write_events(folder / run_file::kEvents, break_rows(state.simulation, ids), options.provenance);
+  write_avalanches(folder / run_file::kAvalanches, found, options.provenance);
+  write_text(folder / run_file::kResult, result.result.dump(2) + "\n");
   return result;
 }
 

@@ -23,7 +23,9 @@ struct CompressOptions {
   double checkpoint_every = 30.0;  ///< wall time between checkpoints, s
   Provenance provenance;
 
-  /// Where a run departs from the paper's model; without them it does not.
+  /// Where a run departs from the paper's model; without them it does not. `work`: what they follow from
+  /// beside the sample; a checkpoint is gone on from where it is the same.
+  std::string work;
   std::function<void(Simulation&)> prepare;  ///< changes the specimen before its test
   BondEvolution evolution;                   ///< of its bonds; empty: they stay as they are
   /// What the instruments make of the true rows; the result and its curve are of what this leaves.

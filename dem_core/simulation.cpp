@@ -47,7 +47,7 @@ LawParameters law_parameters(const Sample& sample, const BondStiffness& bond) {
   const double mean_mass = ball_mass(sample.beads.density, sample.beads.diameter);
   // Critical damping of two mean beads in touch: 2 √(k m/2).
   law.damping = sample.contact.damping_fraction * 2.0 * std::sqrt(law.k_glass * 0.5 * mean_mass);
-  law.one_spring = sample.contact.tangential_springs == "one";
+  law.one_spring = sample.contact.tangential_springs == TangentialSprings::one;
   law.bond_friction_limit = sample.contact.bond_friction_limit;
   return law;
 }

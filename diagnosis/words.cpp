@@ -11,13 +11,6 @@
 namespace pendular::diagnosis {
 namespace {
 
-const effects::Effect* effect_of(const std::string& id) {
-  const auto& all = effects::all_effects();
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const auto& effect) { return effect.id == id; });
-  return found == all.end() ? nullptr : &*found;
-}
-
 /// What `of_one` makes of the effects that an id holds.
 template <typename OfOne>
 std::string of_each(const std::string& id, const char* between, const OfOne& of_one) {
@@ -35,7 +28,7 @@ std::string plain_name(const std::string& id) {
   if (id == "none") return "no effect";
   if (id == "unknown") return "something not in the library";
   return of_each(id, " with ", [](const std::string& one) {
-    const auto* effect = effect_of(one);
+    const auto* effect = effects::known_effect(one);
     return effect ? effect->name : one;
   });
 }
@@ -45,7 +38,7 @@ std::string sentence_of(const std::string& id) {
   if (id == "unknown")
     return "Something acts that is none of the known effects, or a believed input is farther off.";
   return of_each(id, " ", [](const std::string& one) {
-    const auto* effect = effect_of(one);
+    const auto* effect = effects::known_effect(one);
     return effect ? effect->sentence : std::string();
   });
 }

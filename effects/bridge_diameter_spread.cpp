@@ -15,6 +15,10 @@ void spread(BridgeBody& body, const Sample& sample, double theta, const Draws& d
                                 std::max(d, kThickest * sample.beads.diameter));
 }
 
+void single_bridges(BridgeSpread& spread, double theta) {
+  spread.diameter_sd = std::max(spread.diameter_sd, theta);
+}
+
 }  // namespace
 
 /// The paper gives all bridges the stiffness of one of the mean diameter d. Real necks spread: each is
@@ -31,6 +35,7 @@ Effect bridge_diameter_spread() {
           .bank_from = 0.0,
           .bank_to = 30.0,
           .draws = true,
+          .single_bridges = single_bridges,
           .body = spread};
 }
 

@@ -14,6 +14,10 @@ void spread(BridgeBody& body, const Sample& sample, double theta, const Draws& d
   body.gap = std::min(body.gap + excess, std::max(body.gap, kLongest * sample.beads.diameter));
 }
 
+void single_bridges(BridgeSpread& spread, double theta) {
+  spread.gap_excess += theta;
+}
+
 }  // namespace
 
 /// The paper gives all bridges the stiffness of one that spans 2 µm. Real ones span more: each gap is the
@@ -31,6 +35,7 @@ Effect bridge_gap_spread() {
       .bank_from = 0.0,
       .bank_to = 6.0,
       .draws = true,
+      .single_bridges = single_bridges,
       .body = spread};
 }
 

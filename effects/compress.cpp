@@ -1,5 +1,7 @@
 #include "effects/compress.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "dem_core/bond_bodies.h"
@@ -28,7 +30,7 @@ std::vector<Active> active_effects(const Sample& sample, std::uint64_t seed) {
 
 void make_bodies(ActualSpecimen& specimen, const std::vector<Active>& active) {
   const auto standing = standing_bridges(specimen.packing);
-  if (specimen.sample.bridges.stiffness == "one")
+  if (specimen.sample.bridges.stiffness == StiffnessOf::one)
     specimen.believed_bodies.assign(standing.size(), mean_bridge(specimen.sample));
   else
     specimen.believed_bodies = bond_bodies(specimen.packing, standing, specimen.sample);
@@ -137,6 +139,7 @@ CompressResult compress_with_effects(const Packing& measured, const Sample& beli
   const auto active = active_effects(believed, seed);
   const ActualSpecimen specimen = actual_specimen(measured, believed, seed);
   if (!active.empty()) {
+    options.work = fmt::format("effects of seed {} on\n{}", seed, sample_text(believed));
     options.prepare = [&](Simulation& simulation) { prepare(simulation, specimen, active); };
     options.evolution = evolution_of(specimen, active);
     options.read_rows = [&](std::vector<CurveRow>& rows, const Simulation& simulation) {

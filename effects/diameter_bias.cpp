@@ -1,7 +1,11 @@
+#include <cmath>
+
 #include "effects/effect.h"
 
 namespace pendular::effects {
 namespace {
+
+constexpr double kUm = 1e6;
 
 void beads(std::vector<Bead>& beads, double theta) {
   for (auto& bead : beads) bead.diameter -= 1e-6 * theta;
@@ -24,6 +28,16 @@ void reading(Packing& packing, double theta, const Draws&) {
   shrink(packing, -theta);
 }
 
+/// Diameters too large by θ draw the peak to −θ.
+void contacts(ContactPeak& peak, double theta) {
+  peak.position -= theta / kUm;
+}
+
+std::optional<double> shown_by_beads(const ContactPeak& peak) {
+  if (std::fabs(peak.position) <= kTouchingGap * peak.diameter) return std::nullopt;
+  return -kUm * peak.position;
+}
+
 }  // namespace
 
 /// The paper takes diameters as measured. A threshold set too low makes all beads larger: the true diameters,
@@ -39,6 +53,9 @@ Effect diameter_bias() {
           .highest = 10.0,
           .bank_from = -4.0,
           .bank_to = 4.0,
+          .settled_by = calibration_sphere(),
+          .contacts = contacts,
+          .shown_by_beads = shown_by_beads,
           .sample = sample,
           .beads = beads,
           .truth = truth,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,7 +12,9 @@
 #include "dem_core/drive/bond_evolution.h"
 #include "dem_core/observe/curve.h"
 #include "dem_core/simulation.h"
+#include "effects/direct_measurement.h"
 #include "micromechanics/bridge_body.h"
+#include "packing/contact_peak.h"
 #include "packing/packing.h"
 
 namespace pendular::effects {
@@ -50,6 +53,12 @@ struct Gauge {
   double section, height;  ///< of the specimen before its test, m², m
 };
 
+/// What a sample says of single bridges without a specimen, µm.
+struct BridgeSpread {
+  double diameter_sd = 0.0;  ///< of necks
+  double gap_excess = 0.0;   ///< mean gap over the stated one
+};
+
 /// Something that a real specimen, its test or its measurement may have and the paper's model has not.
 /// θ is its magnitude in `unit`; at 0 there is no effect. Each hook is null where the effect does not enter;
 /// effects are called in the order of the list, hooks in the order in which they stand here.
@@ -63,29 +72,44 @@ struct Effect {
   bool of_the_ends = false;   ///< θ is a length that counts as a share of the specimen's size
   bool draws =
       false;  ///< what it does differs from specimen to specimen of one θ: which bridges, which beads
+
+  /// Why it cannot act in any specimen of such a sample, to follow a colon; empty: it can.
+  std::function<std::string(const Sample& sample)> inert_in = nullptr;
+  /// What finds or rules it out by itself.
+  std::optional<DirectMeasurement> settled_by = {};
+  /// What becomes of the gaps of touching beads in tables of measured beads.
+  std::function<void(ContactPeak& peak, double theta)> contacts = nullptr;
+  /// θ that such tables show by themselves; nothing within their noise.
+  std::function<std::optional<double>(const ContactPeak& peak)> shown_by_beads = nullptr;
+  /// What becomes of single bridges, for whoever knows the sample only.
+  std::function<void(BridgeSpread& spread, double theta)> single_bridges = nullptr;
+
   /// What the sample file states otherwise than it is.
-  void (*sample)(Sample& sample, double theta) = nullptr;
+  std::function<void(Sample& sample, double theta)> sample = nullptr;
   /// What beads that were measured are taken to be, with their standard errors: of effects on how single
   /// beads are measured, for whoever knows their table only (closed_contacts()).
-  void (*beads)(std::vector<Bead>& beads, double theta) = nullptr;
+  std::function<void(std::vector<Bead>& beads, double theta)> beads = nullptr;
   /// From the beads and bridges as measured to those that are, before diameters are drawn; and back, of those
   /// effects that say what measured beads are taken to be.
-  void (*truth)(Packing& packing, double theta, const Draws& draws) = nullptr;
-  void (*reading)(Packing& packing, double theta, const Draws& draws) = nullptr;
+  std::function<void(Packing& packing, double theta, const Draws& draws)> truth = nullptr;
+  std::function<void(Packing& packing, double theta, const Draws& draws)> reading = nullptr;
   /// What becomes of the packing that is.
-  void (*packing)(Packing& packing, double theta, const Draws& draws) = nullptr;
+  std::function<void(Packing& packing, double theta, const Draws& draws)> packing = nullptr;
   /// What becomes of one bridge; `pair` is its counter. Its stiffness changes by the ratio that finite
   /// elements give.
-  void (*body)(BridgeBody& body, const Sample& sample, double theta, const Draws& draws,
-               std::uint64_t pair) = nullptr;
+  std::function<void(BridgeBody& body, const Sample& sample, double theta, const Draws& draws,
+                     std::uint64_t pair)>
+      body = nullptr;
   /// What becomes of the specimen before its test.
-  void (*simulation)(Simulation& simulation, const ActualSpecimen& specimen, double theta,
-                     const Draws& draws) = nullptr;
+  std::function<void(Simulation& simulation, const ActualSpecimen& specimen, double theta,
+                     const Draws& draws)>
+      simulation = nullptr;
   /// How bonds change as the test goes on, and how many numbers each remembers for that.
-  std::function<void(const BondMoment&)> (*evolution)(const ActualSpecimen& specimen, double theta) = nullptr;
+  std::function<std::function<void(const BondMoment&)>(const ActualSpecimen& specimen, double theta)>
+      evolution = nullptr;
   std::size_t memory = 0;
   /// What the instruments make of the rows.
-  void (*rows)(std::vector<CurveRow>& rows, const Gauge& gauge, double theta) = nullptr;
+  std::function<void(std::vector<CurveRow>& rows, const Gauge& gauge, double theta)> rows = nullptr;
 
   /// Whether it changes nothing but what instruments read.
   bool reads_only() const {

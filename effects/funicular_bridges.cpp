@@ -1,15 +1,22 @@
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "effects/effect.h"
+#include "effects/funicular.h"
 
 namespace pendular::effects {
 namespace {
 
-constexpr double kTransition = 0.027;  // W* of Hemmerle et al. 2021
-
 void thin(BridgeBody& body, const Sample& sample, double theta, const Draws&, std::uint64_t) {
-  const double content = sample.bridges.polymer_content, above = content - kTransition;
+  const double content = sample.bridges.polymer_content, above = content - kFunicularContent;
   if (above > 0.0) body.neck_diameter *= std::sqrt((content - theta * above) / content);
+}
+
+std::string inert_in(const Sample& sample) {
+  if (sample.bridges.polymer_content > kFunicularContent) return "";
+  return fmt::format("no specimen has more polymer than the funicular transition, W* = {}",
+                     kFunicularContent);
 }
 
 }  // namespace
@@ -27,6 +34,7 @@ Effect funicular_bridges() {
           .highest = 1.0,
           .bank_from = 0.0,
           .bank_to = 1.0,
+          .inert_in = inert_in,
           .body = thin};
 }
 

@@ -6,7 +6,7 @@ namespace {
 void change(Sample& sample, double theta) {
   auto& asked = sample.compression;
   (asked.speed_si ? *asked.speed_si : asked.speed) *= theta;
-  if (asked.control == "relaxation") asked.control = "speed";
+  if (asked.control == Control::relaxation) asked.control = Control::speed;
 }
 
 }  // namespace
@@ -25,6 +25,8 @@ Effect loading_rate() {
           .highest = 100.0,
           .bank_from = 0.0,
           .bank_to = 10.0,
+          .settled_by = DirectMeasurement{"the simulation at half the speed",
+                                          "the only one that needs no experiment", 0.1},
           .sample = change};
 }
 

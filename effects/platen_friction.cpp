@@ -23,6 +23,7 @@ Effect platen_friction() {
           .highest = 2.0,
           .bank_from = -0.4,
           .bank_to = 0.4,
+          .settled_by = sliding_friction(),
           .sample = change};
 }
 

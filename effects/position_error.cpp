@@ -5,6 +5,8 @@
 namespace pendular::effects {
 namespace {
 
+constexpr double kUm = 1e6;
+
 void beads(std::vector<Bead>& beads, double theta) {
   for (auto& bead : beads) bead.sigma_centre = std::hypot(bead.sigma_centre, 1e-6 * theta);
 }
@@ -25,6 +27,18 @@ void reading(Packing& packing, double theta, const Draws& draws) {
   move(packing, -1e-6 * theta, draws);
 }
 
+/// Noise θ of centres that is not stated adds 2θ² to the peak's variance.
+void contacts(ContactPeak& peak, double theta) {
+  peak.scatter = std::hypot(peak.scatter, M_SQRT2 * (theta / kUm));
+}
+
+std::optional<double> shown_by_beads(const ContactPeak& peak) {
+  const double excess = peak.scatter * peak.scatter - peak.stated * peak.stated;
+  const double own = kTouchingScatter * peak.diameter;
+  if (peak.stated <= 0.0 || excess <= own * own) return std::nullopt;
+  return kUm * std::sqrt(0.5 * excess);
+}
+
 }  // namespace
 
 /// The paper simulates the beads where the tomogram shows them. They are elsewhere, by N(0, θ) along each
@@ -42,6 +56,8 @@ Effect position_error() {
           .bank_from = 0.0,
           .bank_to = 5.0,
           .draws = true,
+          .contacts = contacts,
+          .shown_by_beads = shown_by_beads,
           .beads = beads,
           .truth = truth,
           .reading = reading};

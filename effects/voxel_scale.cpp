@@ -51,6 +51,7 @@ Effect voxel_scale() {
           .highest = 0.2,
           .bank_from = -0.05,
           .bank_to = 0.05,
+          .settled_by = calibration_sphere(),
           .sample = sample,
           .truth = truth,
           .rows = rows};

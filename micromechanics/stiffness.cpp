@@ -47,7 +47,7 @@ BridgeStiffnesses bridge_stiffnesses(std::span<const BridgeBody> bodies, const P
 }
 
 std::vector<BondStiffness> bond_stiffnesses(const Sample& sample, std::span<const BridgeBody> bodies) {
-  if (sample.bridges.stiffness == "one")
+  if (sample.bridges.stiffness == StiffnessOf::one)
     return std::vector<BondStiffness>(bodies.size(), bond_stiffness(sample));
   if (sample.bridges.normal_stiffness || sample.bridges.tangential_stiffness)
     bad_input(

@@ -7,6 +7,10 @@
 
 namespace pendular {
 
+/// What gaps of touching beads have without any error of measurement, over the diameter: mean and standard
+/// deviation. Beads of a real or simulated packing overlap and part by some thousandths where they touch.
+inline constexpr double kTouchingGap = 0.0025, kTouchingScatter = 0.004;
+
 /// How the gaps of touching beads are distributed in tables of measured beads: about zero, and as wide as
 /// the stated errors say, unless diameters are biased or errors are not stated in full.
 struct ContactPeak {

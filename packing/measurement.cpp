@@ -23,18 +23,18 @@ bool states_errors(const std::vector<Bead>& beads) {
                      [](const Bead& bead) { return bead.sigma_centre > 0.0 || bead.sigma_diameter > 0.0; });
 }
 
-std::string diameters_used(const Sample& sample, bool errors_stated) {
-  if (sample.beads.diameters != "auto") return sample.beads.diameters;
-  return errors_stated ? "measured" : "drawn";
+Diameters diameters_used(const Sample& sample, bool errors_stated) {
+  if (sample.beads.diameters != Diameters::automatic) return sample.beads.diameters;
+  return errors_stated ? Diameters::measured : Diameters::drawn;
 }
 
-std::string diameters_used(const Sample& sample, const std::vector<Bead>& beads) {
+Diameters diameters_used(const Sample& sample, const std::vector<Bead>& beads) {
   return diameters_used(sample, states_errors(beads));
 }
 
 Packing packing_of(std::vector<Bead> beads, const Sample& sample) {
   Packing packing;
-  const bool measured = diameters_used(sample, beads) == "measured";
+  const bool measured = diameters_used(sample, beads) == Diameters::measured;
   packing.beads = measured ? closed_contacts(std::move(beads)) : std::move(beads);
   packing.specimen = specimen_around(packing.beads, sample.specimen.diameter, sample.specimen.height);
   flag_boundary(packing);
@@ -43,7 +43,7 @@ Packing packing_of(std::vector<Bead> beads, const Sample& sample) {
 }
 
 void warn_of_open_contacts(const std::vector<Bead>& beads, const Sample& sample) {
-  if (!states_errors(beads) || diameters_used(sample, beads) == "drawn") return;
+  if (!states_errors(beads) || diameters_used(sample, beads) == Diameters::drawn) return;
   const auto near = candidate_bridges(beads, 0.0);
   const auto overlapping = std::count_if(
       near.begin(), near.end(), [](const Bridge& pair) { return pair.gap < -kClearly * pair.sigma_gap; });

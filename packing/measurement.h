@@ -11,10 +11,10 @@ namespace pendular {
 /// Whether it is known how well these beads were measured: some of them have standard errors.
 bool states_errors(const std::vector<Bead>& beads);
 
-/// What beads.diameters of the sample comes to: "measured" or "drawn". "auto" is measured where errors are
+/// What beads.diameters of the sample comes to: measured or drawn. automatic is measured where errors are
 /// stated, for only these tell which beads touch.
-std::string diameters_used(const Sample& sample, bool errors_stated);
-std::string diameters_used(const Sample& sample, const std::vector<Bead>& beads);
+Diameters diameters_used(const Sample& sample, bool errors_stated);
+Diameters diameters_used(const Sample& sample, const std::vector<Bead>& beads);
 
 /// The packing that beads make in the sample's specimen, with its candidate bridges. Measured diameters are
 /// used with contacts closed (closed_contacts()); beads whose diameters are drawn stay where they were

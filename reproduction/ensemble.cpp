@@ -23,7 +23,7 @@ std::vector<Point> read_points(const sweep::Plan& plan, std::span<const sweep::R
     point.sample = plan.requests[k].sample;
     if (outcomes[k].status != sweep::RunStatus::done) continue;
     point.requests.push_back(plan.requests[k]);
-    point.runs.push_back(viz::read_run_curves(outcomes[k].folder));
+    point.runs.push_back(read_run_curves(outcomes[k].folder));
   }
   return points;
 }
@@ -47,49 +47,49 @@ Spread spread_of(const Point& point, Quantity quantity) {
   return spread_of(values);
 }
 
-double modulus(const viz::RunFolder& run) {
+double modulus(const RunFolder& run) {
   return run.result.modulus.value_or(kNone);
 }
 
-double linear_limit(const viz::RunFolder& run) {
+double linear_limit(const RunFolder& run) {
   return run.result.linear_limit.value_or(kNone);
 }
 
-double peak_strain(const viz::RunFolder& run) {
+double peak_strain(const RunFolder& run) {
   return run.result.peak_strain.value_or(kNone);
 }
 
-double peak_stress(const viz::RunFolder& run) {
+double peak_stress(const RunFolder& run) {
   return run.result.peak_stress.value_or(kNone);
 }
 
-double coordination_number(const viz::RunFolder& run) {
+double coordination_number(const RunFolder& run) {
   return run.result.coordination.value_or(kNone);
 }
 
-double broken_share_before_limit(const viz::RunFolder& run) {
+double broken_share_before_limit(const RunFolder& run) {
   if (!run.result.linear_limit || !run.result.bonds) return kNone;
   const double end = run.result.toe + *run.result.linear_limit;
   const auto broken = std::upper_bound(run.break_strain.begin(), run.break_strain.end(), end);
   return static_cast<double>(broken - run.break_strain.begin()) / static_cast<double>(*run.result.bonds);
 }
 
-double stress_kept(const viz::RunFolder& run) {
+double stress_kept(const RunFolder& run) {
   return run.stress.back() / *std::max_element(run.stress.begin(), run.stress.end());
 }
 
-double band_contrast(const viz::RunFolder& run) {
+double band_contrast(const RunFolder& run) {
   return run.result.band ? run.result.band->contrast : kNone;
 }
 
-double volume_change_at_peak(const viz::RunFolder& run) {
+double volume_change_at_peak(const RunFolder& run) {
   const auto lateral = read_csv(run.path / "curve.csv", {"lateral_strain"}).numbers("lateral_strain", true);
   const auto peak = std::max_element(run.stress.begin(), run.stress.end()) - run.stress.begin();
   const auto row = static_cast<std::size_t>(peak);
   return 2.0 * lateral[row] - run.strain[row];
 }
 
-double slope_at_fixed_strain(const viz::RunFolder& run) {
+double slope_at_fixed_strain(const RunFolder& run) {
   std::vector<double> strain, stress;
   for (std::size_t k = 0; k < run.strain.size(); ++k) {
     if (run.strain[k] < kSlopeFrom || run.strain[k] > kSlopeTo) continue;

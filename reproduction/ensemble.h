@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "run_folder/run_folder.h"
 #include "sweep/execute.h"
 #include "sweep/plan.h"
-#include "viz/run_folder.h"
 
 namespace pendular::reproduction {
 
@@ -15,7 +15,7 @@ namespace pendular::reproduction {
 struct Point {
   Sample sample;                            ///< of all its runs
   std::vector<sweep::RunRequest> requests;  ///< one per run
-  std::vector<viz::RunFolder> runs;
+  std::vector<RunFolder> runs;
 };
 
 /// The points of a plan, in its order, read from its runs' folders.
@@ -29,26 +29,26 @@ struct Spread {
 Spread spread_of(std::span<const double> values);
 
 /// A number read off a run; NaN where the run does not have it.
-using Quantity = double (*)(const viz::RunFolder&);
+using Quantity = double (*)(const RunFolder&);
 Spread spread_of(const Point& point, Quantity quantity);
 
 /// What the report asks of a run. Strains count from the toe, SI.
-double modulus(const viz::RunFolder& run);
-double linear_limit(const viz::RunFolder& run);
-double peak_strain(const viz::RunFolder& run);
-double peak_stress(const viz::RunFolder& run);
-double coordination_number(const viz::RunFolder& run);
-double broken_share_before_limit(const viz::RunFolder& run);  ///< of all bonds
-double stress_kept(const viz::RunFolder& run);                ///< stress at the end over the highest
-double band_contrast(const viz::RunFolder& run);              ///< NaN where no band was found
+double modulus(const RunFolder& run);
+double linear_limit(const RunFolder& run);
+double peak_strain(const RunFolder& run);
+double peak_stress(const RunFolder& run);
+double coordination_number(const RunFolder& run);
+double broken_share_before_limit(const RunFolder& run);  ///< of all bonds
+double stress_kept(const RunFolder& run);                ///< stress at the end over the highest
+double band_contrast(const RunFolder& run);              ///< NaN where no band was found
 
 /// Change of volume at mid-height at the highest stress, 2 × lateral − axial strain: positive where it
 /// swells.
-double volume_change_at_peak(const viz::RunFolder& run);
+double volume_change_at_peak(const RunFolder& run);
 
 /// Least-squares slope of stress over the platen strains 2 to 3 %, Pa: a modulus at a strain that does not
 /// depend on where a curve ends or breaks.
-double slope_at_fixed_strain(const viz::RunFolder& run);
+double slope_at_fixed_strain(const RunFolder& run);
 
 /// "41.1 ± 0.9", the sd left out where there is none; values over `unit`. A dash where there is no value.
 std::string in_words(const Spread& spread, double unit = 1.0, int decimals = 1);

@@ -15,7 +15,7 @@ const std::vector<std::string> kBehaviour = {
 std::vector<std::string> behaviour_of(const Point& point) {
   const Sample& sample = point.sample;
   Sample mean = sample;
-  mean.bridges.stiffness = "one";
+  mean.bridges.stiffness = StiffnessOf::one;
   const double unit = bond_stiffness(mean).normal / sample.beads.diameter;
   const Spread e = spread_of(point, modulus);
   return {std::to_string(point.runs.size()),

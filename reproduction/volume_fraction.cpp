@@ -62,7 +62,7 @@ Section volume_fraction_section(const Desk& desk, const std::vector<Point>& poin
   for (const auto& point : points) {
     if (point.runs.empty()) continue;
     const double fraction = point.sample.specimen.volume_fraction;
-    const auto broken = [](const viz::RunFolder& run) {
+    const auto broken = [](const RunFolder& run) {
       return static_cast<double>(run.break_strain.size()) / static_cast<double>(run.result.bonds.value_or(0));
     };
     const Spread band = spread_of(point, band_contrast);

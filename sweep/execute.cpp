@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "base/error.h"
+#include "run_folder/run_folder.h"
 #include "sweep/executors.h"
 #include "sweep/make_run.h"
 
@@ -24,20 +24,11 @@ void OpenRuns::ask() {
   if (options_.progress) options_.progress(done, failed, hashes_.size());
 }
 
-std::string last_words(const Store& store, const std::string& hash) {
-  if (!fs::exists(store.log_path(hash))) return "";
-  std::istringstream lines(read_text(store.log_path(hash)));
-  std::string line, last;
-  while (std::getline(lines, line))
-    if (!line.empty()) last = line;
-  return last;
-}
-
 namespace {
 
 /// BadInput where a finished run has no result of its own.
 void require_result(const Store& store, const std::string& hash) {
-  const fs::path file = store.run_folder(hash) / "result.json";
+  const fs::path file = store.run_folder(hash) / run_file::kResult;
   const auto json = nlohmann::json::parse(read_text(file), nullptr, false);
   const nlohmann::json::json_pointer command("/provenance/command");
   const bool whole = json.is_object() && json.contains("linear_modulus_pa") && json.contains("beads") &&

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/own_program.h"
+#include "base/process.h"
 #include "sweep/store.h"
 
 namespace pendular::sweep {
@@ -20,7 +20,9 @@ struct ExecuteOptions {
   int cores = 0;              ///< of this machine, shared between runs; 0: as many as threads may be used
   bool retry_failed = false;  ///< make runs anew that have failed before
   std::optional<SlurmOptions> slurm;  ///< send the runs to Slurm instead
-  fs::path program = own_program();   ///< pendular, which makes each run in a process of its own
+  /// Makes one run in a process of its own: it is given the store's folder, the run's hash, "--threads" and
+  /// their number, calls make_run(), and ends with its error's status.
+  Command worker;
   std::function<void(std::size_t done, std::size_t failed, std::size_t total)> progress;
 };
 

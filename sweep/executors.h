@@ -36,7 +36,4 @@ void run_locally(Store& store, OpenRuns& open, const ExecuteOptions& options);
 /// A job array; the same.
 void run_on_slurm(Store& store, OpenRuns& open, const ExecuteOptions& options);
 
-/// The last line that a run's worker wrote to its log; empty where there is none.
-std::string last_words(const Store& store, const std::string& hash);
-
 }  // namespace pendular::sweep

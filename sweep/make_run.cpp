@@ -6,11 +6,13 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/model_version.h"
 #include "base/parallel.h"
 #include "effects/compress.h"
 #include "packing/bridges.h"
 #include "packing/generate.h"
 #include "packing/vtp.h"
+#include "run_folder/run_folder.h"
 
 namespace pendular::sweep {
 namespace {
@@ -93,7 +95,7 @@ void book(Store& store, const std::string& hash, const RunRequest& request,
   fs::remove(folder / "checkpoint.previous");  // only slow runs have one
   if (!request.keep_all) {
     fs::remove_all(folder / "checkpoint");
-    if (request.sample.compression.frame_at.empty()) fs::remove_all(folder / "frames");
+    if (request.sample.compression.frame_at.empty()) fs::remove_all(folder / run_file::kFrames);
   }
   store.finish(hash, effort);
 }
@@ -101,7 +103,7 @@ void book(Store& store, const std::string& hash, const RunRequest& request,
 void make(Store& store, const std::string& hash) {
   const RunRequest request = store.request(hash);
   if (content_hash(request) != hash)
-    bad_input("run {}: was asked for by another version of pendular, this is {}", hash, program_version());
+    bad_input("run {}: was asked for by another version of the model, this is {}", hash, kModelVersion);
   const fs::path final_folder = store.run_folder(hash), folder = store.part_folder(hash);
   if (fs::exists(final_folder)) return book(store, hash, request, std::nullopt);
   make_inner_folder(folder);
@@ -121,7 +123,7 @@ void make(Store& store, const std::string& hash) {
   effort.seconds = rate > 0.0 ? effort.particle_steps / rate : 0.0;
   effort.threads = static_cast<int>(thread_count());
   result.erase("performance");  // the only part that differs between two runs of the same work
-  write_text(folder / "result.json", result.dump(2) + "\n");
+  write_text(folder / run_file::kResult, result.dump(2) + "\n");
   remove_leftovers(folder);
   rename_durably(folder, final_folder);
   book(store, hash, request, effort);

@@ -41,11 +41,11 @@ std::vector<SampleValue> values_at(const std::vector<Axis>& axes, std::size_t po
 /// Realisations of a specimen that is used as measured would all be one.
 void check_realisations(const SweepFile& file, const Sample& sample, bool errors_stated) {
   if (file.realisations == 1 || file.packing_each) return;
-  if (diameters_used(sample, errors_stated) == "measured")
+  if (diameters_used(sample, errors_stated) == Diameters::measured)
     bad_input(
         "{}: beads.diameters = \"{}\" takes them as measured: found {} realisations, expected 1, because "
         "all would be the same (or \"drawn\", or packings = \"each\")",
-        file.sample.string(), sample.beads.diameters, file.realisations);
+        file.sample.string(), to_string(sample.beads.diameters), file.realisations);
 }
 
 }  // namespace

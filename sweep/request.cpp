@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/provenance.h"
+#include "base/model_version.h"
 #include "packing/measurement.h"
 #include "packing/vtp.h"
 
@@ -47,7 +47,7 @@ std::string request_text(const RunRequest& request) {
   nlohmann::ordered_json sample;
   for (const auto& [key, value] : sample_settings(request.sample))
     std::visit([&, name = key](const auto& held) { sample[name] = held; }, value);
-  const nlohmann::ordered_json json = {{"version", program_version()},
+  const nlohmann::ordered_json json = {{"model", kModelVersion},
                                        {"packing", packing},
                                        {"seed", request.seed},
                                        {"keep", request.keep_all ? "all" : "curve"},
@@ -79,7 +79,7 @@ std::string content_hash(const RunRequest& request) {
 std::string packing_hash(const RunRequest& request) {
   if (!request.packing.sha256.empty()) return request.packing.sha256;
   // What generate_packing() reads.
-  std::string text = fmt::format("pendular {} packing {}\n", program_version(), request.packing.seed);
+  std::string text = fmt::format("pendular model {} packing {}\n", kModelVersion, request.packing.seed);
   for (const char* key : {"beads.diameter_um", "beads.diameter_sd_um", "specimen.diameter_um",
                           "specimen.height_um", "specimen.volume_fraction"})
     text += fmt::format("{} = {}\n", key, sample_key(request.sample, key));

@@ -30,7 +30,8 @@ struct RunRequest {
 };
 
 /// The request as JSON text: the same for equal requests, whatever machine, folder or file name; with the
-/// program's version. The sample that counts is what this text tells (see sample_settings()).
+/// model's version (base/model_version.h). The sample that counts is what this text tells (see
+/// sample_settings()).
 std::string request_text(const RunRequest& request);
 
 /// Reads such a text; `file` and `beads` of the packing stay empty. BadInput, opening with `where`.

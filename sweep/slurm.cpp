@@ -1,8 +1,6 @@
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <map>
 #include <set>
 #include <sstream>
@@ -22,20 +20,9 @@ constexpr int kGoneFor = 3;                  // times of asking after which a jo
 /// A task of a job array, as squeue names it: "JOB_INDEX".
 using Task = std::string;
 
-struct Answer {
-  int status = 0;
-  std::string text;  ///< standard output and errors
-};
-
+/// Options of sbatch are typed as in a shell.
 Answer ask_shell(const std::string& command) {
-  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-  if (!pipe) throw ComputationFailed("no shell can be started to reach Slurm");
-  Answer answer;
-  char block[4096];
-  for (std::size_t n = 0; (n = std::fread(block, 1, sizeof block, pipe)) > 0;) answer.text.append(block, n);
-  const int status = ::pclose(pipe);
-  answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-  return answer;
+  return ask({"sh", {"-c", command}});
 }
 
 std::string first_line(const std::string& text) {
@@ -62,10 +49,9 @@ class Arrays {
     write_text(list, fmt::format("{}\n", fmt::join(hashes, "\n")));
     write_text(script, fmt::format("#!/bin/sh\n"
                                    "hash=$(sed -n \"$((SLURM_ARRAY_TASK_ID + 1))p\" {})\n"
-                                   "exec {} sweep-run {} \"$hash\" --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" "
+                                   "exec {} {} \"$hash\" --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" "
                                    ">{}/\"$hash\".txt 2>&1\n",
-                                   quoted(list), quoted(fs::canonical(options_.program)),
-                                   quoted(fs::absolute(store_.folder())),
+                                   quoted(list), worker_in_words(), quoted(fs::absolute(store_.folder())),
                                    quoted(fs::absolute(store_.folder() / "logs"))));
     const auto answer =
         ask_shell(fmt::format("sbatch --parsable --array=0-{} --job-name=pendular --output=/dev/null {} {}",
@@ -96,6 +82,14 @@ class Arrays {
   }
 
  private:
+  /// For a shell, wherever it starts.
+  std::string worker_in_words() const {
+    const fs::path& program = options_.worker.program;
+    std::string words = quoted(program.has_parent_path() ? fs::canonical(program) : program);
+    for (const auto& word : options_.worker.words) words += ' ' + quoted(word);
+    return words;
+  }
+
   /// The tasks that wait or run; nothing where the scheduler gives no answer: it may be back later, and what
   /// it runs goes on.
   std::optional<std::set<Task>> queued() {
@@ -114,7 +108,7 @@ class Arrays {
   void book_loss(const std::string& hash, const Task& task) {
     const RunStatus status = store_.record(hash).status;
     if (status == RunStatus::done || status == RunStatus::failed) return;  // it ended just now
-    const std::string words = last_words(store_, hash);
+    const std::string words = last_line(store_.log_path(hash));
     store_.fail(hash, 4,
                 fmt::format("lost by the scheduler: job {} has left the queue without a result{}", task,
                             words.empty() ? "" : "; it last said: " + words));

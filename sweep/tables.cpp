@@ -1,38 +1,45 @@
 #include "sweep/tables.h"
 
-#include <nlohmann/json.hpp>
-
 #include <cmath>
 #include <limits>
 
 #include "base/csv.h"
 #include "base/error.h"
+#include "run_folder/run_folder.h"
 
 namespace pendular::sweep {
 namespace {
 
-/// A column and where result.json has it; summed up over realisations or not.
+/// A column and what it shows of a run; summed up over realisations or not.
 struct Quantity {
   const char* name;
-  const char* path;
+  std::optional<double> (*of)(const RunResult& run);
   bool summed;
 };
 
-constexpr Quantity kQuantities[] = {
-    {"linear_modulus_pa", "/linear_modulus_pa/value", true},
-    {"linear_modulus_sigma_pa", "/linear_modulus_pa/sigma", false},
-    {"linear_limit_strain", "/linear_limit_strain", true},
-    {"peak_stress_pa", "/peak/stress_pa", true},
-    {"peak_strain", "/peak/strain", true},
-    {"broken_bonds", "/broken_bonds", true},
-    {"coordination", "/coordination/bridges_per_interior_bead", true},
-    {"beads", "/beads", false},
-    {"bonds", "/bonds", false},
-    {"final_strain", "/final_strain", false},
-    {"inertial_number", "/quasi_static/largest_inertial_number", false},
-    {"unbalanced_force", "/quasi_static/largest_unbalanced_force", false},
-    {"work_balance_error", "/work_balance/relative_error", false},
-};
+template <auto member>
+std::optional<double> number(const RunResult& run) {
+  return run.*member;
+}
+
+const std::vector<Quantity>& quantities() {
+  static const std::vector<Quantity> all = {
+      {"linear_modulus_pa", number<&RunResult::modulus>, true},
+      {"linear_modulus_sigma_pa", number<&RunResult::modulus_sigma>, false},
+      {"linear_limit_strain", number<&RunResult::linear_limit>, true},
+      {"peak_stress_pa", number<&RunResult::peak_stress>, true},
+      {"peak_strain", number<&RunResult::peak_strain>, true},
+      {"broken_bonds", number<&RunResult::broken_bonds>, true},
+      {"coordination", number<&RunResult::coordination>, true},
+      {"beads", number<&RunResult::beads>, false},
+      {"bonds", number<&RunResult::bonds>, false},
+      {"final_strain", number<&RunResult::final_strain>, false},
+      {"inertial_number", number<&RunResult::inertial_number>, false},
+      {"unbalanced_force", number<&RunResult::unbalanced_force>, false},
+      {"work_balance_error", number<&RunResult::work_balance_error>, false},
+  };
+  return all;
+}
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -40,15 +47,13 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 using Values = std::vector<double>;
 
 Values values_of(const RunOutcome& outcome) {
-  Values values(std::size(kQuantities), kNone);
+  Values values(quantities().size(), kNone);
   if (outcome.status != RunStatus::done) return values;
-  const fs::path path = outcome.folder / "result.json";
-  const auto json = nlohmann::json::parse(read_text(path), nullptr, false);
-  if (json.is_discarded())
-    bad_input("{}: is damaged; remove its folder, and the sweep makes it anew", path.string());
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const nlohmann::json::json_pointer place(kQuantities[k].path);
-    if (json.contains(place) && json[place].is_number()) values[k] = json[place].get<double>();
+  try {
+    const RunResult result = read_result(outcome.folder / run_file::kResult);
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = quantities()[k].of(result).value_or(kNone);
+  } catch (const BadInput& error) {
+    bad_input("{}; remove its folder, and the sweep makes it anew", error.what());
   }
   return values;
 }
@@ -69,7 +74,7 @@ std::string point_cells(const Plan::Run& run) {
 std::string results_csv(const Plan& plan, std::span<const RunOutcome> outcomes,
                         const std::vector<Values>& values) {
   std::string text = point_header(plan) + ",realisation,seed,run,status,message";
-  for (const auto& quantity : kQuantities) text += fmt::format(",{}", quantity.name);
+  for (const auto& quantity : quantities()) text += fmt::format(",{}", quantity.name);
   text += '\n';
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     const auto& run = plan.runs[k];
@@ -96,7 +101,7 @@ std::string spread_cells(const std::vector<double>& values) {
 std::string summary_csv(const Plan& plan, std::span<const RunOutcome> outcomes,
                         const std::vector<Values>& values) {
   std::string text = point_header(plan) + ",runs,failed";
-  for (const auto& quantity : kQuantities)
+  for (const auto& quantity : quantities())
     if (quantity.summed) text += fmt::format(",{0}_mean,{0}_sd,{0}_standard_error,{0}_n", quantity.name);
   text += '\n';
   for (std::size_t first = 0, last = 0; first < plan.runs.size(); first = last) {
@@ -104,8 +109,8 @@ std::string summary_csv(const Plan& plan, std::span<const RunOutcome> outcomes,
     for (last = first; last < plan.runs.size() && plan.runs[last].point == plan.runs[first].point; ++last)
       failed += outcomes[last].status == RunStatus::failed;
     text += fmt::format("{},{},{}", point_cells(plan.runs[first]), last - first, failed);
-    for (std::size_t q = 0; q < std::size(kQuantities); ++q) {
-      if (!kQuantities[q].summed) continue;
+    for (std::size_t q = 0; q < quantities().size(); ++q) {
+      if (!quantities()[q].summed) continue;
       std::vector<double> column;
       for (std::size_t k = first; k < last; ++k) column.push_back(values[k][q]);
       text += ',' + spread_cells(column);

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <sys/types.h>
-
+#include <optional>
 #include <string>
+
+#include "base/process.h"
 
 namespace pendular::viz {
 
@@ -17,10 +18,10 @@ class Display {
   Display(const Display&) = delete;
   Display& operator=(const Display&) = delete;
 
-  bool is_private() const { return server_ > 0; }
+  bool is_private() const { return server_.has_value(); }
 
  private:
-  pid_t server_ = 0;  ///< of the private Xvfb
+  std::optional<Process> server_;  ///< the private Xvfb
   std::string former_;
   bool had_former_ = false;
 };

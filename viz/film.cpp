@@ -1,48 +1,17 @@
 #include "viz/film.h"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-
-#include <chrono>
-#include <thread>
+#include <algorithm>
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/process.h"
 #include "base/progress.h"
-
-extern char** environ;
 
 namespace pendular::viz {
 namespace {
 
 std::string picture_name(std::size_t k) {
   return fmt::format("frame_{:04d}.png", k);
-}
-
-/// Runs a program found on PATH in a folder, silent and without a shell. Its exit status; nothing where it
-/// cannot be started or was killed. Ends it where the user stops the program.
-std::optional<int> run_program(std::vector<std::string> words, const fs::path& folder) {
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  for (int fd : {0, 1, 2}) posix_spawn_file_actions_addopen(&actions, fd, "/dev/null", O_RDWR, 0);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  pid_t child = 0;
-  const int failed = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) return std::nullopt;
-  int status = 0;
-  while (::waitpid(child, &status, WNOHANG) == 0) {
-    if (interrupted()) ::kill(child, SIGTERM);
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  stop_if_interrupted();
-  if (!WIFEXITED(status)) return std::nullopt;
-  return WEXITSTATUS(status);
 }
 
 std::optional<fs::path> make_video(const fs::path& folder, std::size_t pictures, const std::string& comment) {
@@ -52,42 +21,40 @@ std::optional<fs::path> make_video(const fs::path& folder, std::size_t pictures,
   try {
     write_atomically(video, [&](const fs::path& temporary) {
       // Its folder's name may hold what the program would take for a pattern or a protocol.
-      const auto status = run_program({"ffmpeg",
-                                       "-y",
-                                       "-nostdin",
-                                       "-framerate",
-                                       std::to_string(rate),
-                                       "-start_number",
-                                       "0",
-                                       "-i",
-                                       "frame_%04d.png",
-                                       "-threads",
-                                       "1",
-                                       "-c:v",
-                                       "libx264",
-                                       "-crf",
-                                       "18",
-                                       "-pix_fmt",
-                                       "yuv420p",
-                                       "-movflags",
-                                       "+faststart",
-                                       "-fflags",
-                                       "+bitexact",
-                                       "-flags:v",
-                                       "+bitexact",
-                                       "-metadata",
-                                       "comment=" + comment,
-                                       "-f",
-                                       "mp4",
-                                       "file:" + fs::absolute(temporary).string()},
-                                      folder);
-      if (!status)
-        throw ComputationFailed("no film: ffmpeg could not be run; the pictures are in " + folder.string());
-      if (*status == 127)
+      const int status = run({"ffmpeg",
+                              {"-y",
+                               "-nostdin",
+                               "-framerate",
+                               std::to_string(rate),
+                               "-start_number",
+                               "0",
+                               "-i",
+                               "frame_%04d.png",
+                               "-threads",
+                               "1",
+                               "-c:v",
+                               "libx264",
+                               "-crf",
+                               "18",
+                               "-pix_fmt",
+                               "yuv420p",
+                               "-movflags",
+                               "+faststart",
+                               "-fflags",
+                               "+bitexact",
+                               "-flags:v",
+                               "+bitexact",
+                               "-metadata",
+                               "comment=" + comment,
+                               "-f",
+                               "mp4",
+                               "file:" + fs::absolute(temporary).string()}},
+                             {.folder = folder});
+      if (status == kCannotBeStarted)
         throw ComputationFailed("no film: ffmpeg not found; the pictures are in " + folder.string());
-      if (*status != 0)
+      if (status != 0)
         throw ComputationFailed(
-            fmt::format("no film: ffmpeg ended with {}; the pictures are in {}", *status, folder.string()));
+            fmt::format("no film: ffmpeg ended with {}; the pictures are in {}", status, folder.string()));
     });
   } catch (const ComputationFailed& reason) {
     std::error_code ignored;

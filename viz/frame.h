@@ -5,12 +5,13 @@
 
 #include "base/files.h"
 #include "base/vec3.h"
+#include "run_folder/frame.h"
 
 namespace pendular::viz {
 
 /// The beads and pairs of one instant of a run; SI.
 struct Frame {
-  enum class Pair { bond, broken, contact };  ///< contact: beads that touch and were never bonded
+  using Pair = RunFrame::Line;
 
   double strain = 0.0, stress = 0.0;                       ///< -, Pa; NaN: not known
   double platen_bottom = 0.0, platen_top = 0.0;            ///< m

@@ -2,9 +2,9 @@
 
 #include <span>
 
+#include "run_folder/run_folder.h"
 #include "viz/display.h"
 #include "viz/image.h"
-#include "viz/run_folder.h"
 
 namespace pendular::viz {
 

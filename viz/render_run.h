@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/provenance.h"
+#include "run_folder/run_folder.h"
 #include "viz/image.h"
 #include "viz/report.h"
-#include "viz/run_folder.h"
 
 namespace pendular::viz {
 

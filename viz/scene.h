@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "run_folder/run_folder.h"
 #include "viz/display.h"
 #include "viz/frame.h"
 #include "viz/image.h"
-#include "viz/run_folder.h"
 
 namespace pendular::viz {
 
@@ -39,7 +39,7 @@ struct Stage {
   double radius = 0.0, bottom = 0.0, top = 0.0;  ///< of the specimen before loading, m
   double extent = 0.0;                           ///< horizontal reach of 98 % of the beads from the axis, m
   Vec3 dip = Vec3::UnitX();  ///< horizontal part of the band's normal, unit length; to the right
-  std::optional<ShearBand> band;
+  std::optional<ShearPlane> band;
 };
 
 Stage make_stage(const Frame& first, const Frame& last, const RunResult& result);

@@ -2,6 +2,7 @@
 #include <cctype>
 
 #include "base/error.h"
+#include "volume/format.h"
 #include "volume/header_text.h"
 #include "volume/voxel_header.h"
 
@@ -141,6 +142,20 @@ VoxelHeader read_meta_header(const fs::path& path) {
   if (compressed && header.files.size() > 1)
     bad_input("{}: found compressed slices, expected them in one file", fields.where(kData));
   return header;
+}
+
+VolumeFormat formats::meta_image() {
+  return {.name = "MetaImage (.mha, .mhd)",
+          .recognises =
+              [](const fs::path& path, const ReadOptions&) {
+                const std::string extension = lower_extension(path);
+                return extension == ".mha" || extension == ".mhd";
+              },
+          .files = [](const fs::path& path) { return files_of(path, read_meta_header(path)); },
+          .read =
+              [](const fs::path& path, const ReadOptions& options) {
+                return read_with_header(read_meta_header(path), path, options);
+              }};
 }
 
 }  // namespace pendular

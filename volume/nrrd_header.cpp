@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "volume/format.h"
 #include "volume/header_text.h"
 #include "volume/voxel_header.h"
 
@@ -196,6 +197,20 @@ VoxelHeader read_nrrd_header(const fs::path& path) {
   header.place = place_of(fields);
   find_data(text, fields, header);
   return header;
+}
+
+VolumeFormat formats::nrrd() {
+  return {.name = "NRRD (.nrrd, .nhdr)",
+          .recognises =
+              [](const fs::path& path, const ReadOptions&) {
+                const std::string extension = lower_extension(path);
+                return extension == ".nrrd" || extension == ".nhdr";
+              },
+          .files = [](const fs::path& path) { return files_of(path, read_nrrd_header(path)); },
+          .read =
+              [](const fs::path& path, const ReadOptions& options) {
+                return read_with_header(read_nrrd_header(path), path, options);
+              }};
 }
 
 }  // namespace pendular

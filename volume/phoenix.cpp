@@ -7,6 +7,8 @@
 #include <cstdlib>
 
 #include "base/error.h"
+#include "volume/format.h"
+#include "volume/headerless.h"
 
 namespace pendular {
 namespace {
@@ -66,6 +68,36 @@ PhoenixVolume read_pcr(const fs::path& path) {
   volume.spacing = kMillimetre * keys.number("VoxelSizeRec");
   volume.data = data_of(path, keys.text("VOL_File"));
   return volume;
+}
+
+namespace {
+
+bool recognises(const fs::path& path, const ReadOptions&) {
+  return path.extension() == ".pcr" ||
+         (path.extension() == ".vol" && fs::exists(fs::path(path).replace_extension(".pcr")));
+}
+
+std::vector<fs::path> files(const fs::path& path) {
+  const fs::path parameters = fs::path(path).replace_extension(".pcr");
+  return {path, parameters, read_pcr(parameters).data};
+}
+
+/// By its .pcr or by the .vol beside one.
+Volume read(const fs::path& path, ReadOptions options) {
+  const PhoenixVolume phoenix = read_pcr(fs::path(path).replace_extension(".pcr"));
+  options.raw_size = phoenix.size;
+  options.raw_type = phoenix.type;
+  if (!options.spacing) options.spacing = phoenix.spacing;
+  return read_headerless(path.extension() == ".vol" ? path : phoenix.data, options);
+}
+
+}  // namespace
+
+VolumeFormat formats::phoenix() {
+  return {.name = "GE phoenix (.pcr, or .vol beside one)",
+          .recognises = recognises,
+          .files = files,
+          .read = read};
 }
 
 }  // namespace pendular

@@ -16,6 +16,13 @@ double memory() {
 
 }  // namespace
 
+Volume::Pixels pixels_of(const std::string& type) {
+  if (type == "uint8") return std::vector<std::uint8_t>();
+  if (type == "uint16") return std::vector<std::uint16_t>();
+  if (type == "float") return std::vector<float>();
+  throw BadUsage(fmt::format("--type: found '{}', expected uint8, uint16 or float", type));
+}
+
 std::size_t bytes_per_voxel(const Volume& volume) {
   return std::visit([](const auto& pixels) { return sizeof(pixels[0]); }, volume.pixels);
 }

@@ -6,6 +6,9 @@ namespace pendular {
 
 // The pixels of a volume that is being read. Internal to segmentation.
 
+/// No pixels yet, of the type that the option's word says. BadUsage for any other.
+Volume::Pixels pixels_of(const std::string& type);
+
 std::size_t bytes_per_voxel(const Volume& volume);
 char* bytes(Volume& volume);
 

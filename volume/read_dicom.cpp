@@ -5,19 +5,18 @@
 #include <itkGDCMImageIO.h>
 #include <itkGDCMSeriesFileNames.h>
 
-#include <fcntl.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 
 #include "base/interrupt.h"
+#include "base/process.h"
 #include "base/progress.h"
+#include "volume/format.h"
 #include "volume/image_io.h"
 
 namespace pendular {
@@ -171,41 +170,26 @@ rlim_t bytes_in(const fs::path& path) {
   return sum;
 }
 
-/// Reads in this process, which ends: 0 if all went well, else 1, with what was wrong in `told`.
-[[noreturn]] void read_and_end(const fs::path& path, const ReadOptions& options, int told) {
+/// What is wrong with a volume; empty where it could be read. For a process that may be lost.
+std::string complaint_about(const fs::path& path, const ReadOptions& options) {
   const QuietLibraries quiet;
   const rlimit no_core = {0, 0}, memory = {in_use() + kEnough * bytes_in(path) + kSpare, RLIM_INFINITY};
   ::setrlimit(RLIMIT_CORE, &no_core);
   ::setrlimit(RLIMIT_AS, &memory);
   try {
     read_series(path, options);
-    ::_exit(0);
+    return "";
   } catch (const Error& error) {
-    const std::string words = error.what();
-    [[maybe_unused]] const auto written = ::write(told, words.data(), words.size());
-  } catch (...) {
+    return error.what();
   }
-  ::_exit(1);
 }
 
 /// The library ends the process, or asks for any amount of memory, where it meets some kinds of damage, so
 /// reading is tried in a process of its own first.
 void try_reading(const fs::path& path, const ReadOptions& options) {
-  int ends[2];
-  const pid_t child = ::pipe2(ends, O_CLOEXEC) == 0 ? ::fork() : -1;
-  if (child < 0) throw ComputationFailed(fmt::format("no process can be started: {}", std::strerror(errno)));
-  if (child == 0) read_and_end(path, options, ends[1]);
-  ::close(ends[1]);
-  std::string words;
-  char part[512];
-  for (ssize_t got = 0; (got = ::read(ends[0], part, sizeof part)) > 0 || (got < 0 && errno == EINTR);)
-    if (got > 0) words.append(part, static_cast<std::size_t>(got));
-  ::close(ends[0]);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  const auto [status, complaint] = run_apart([&] { return complaint_about(path, options); });
   stop_if_interrupted();
-  if (!words.empty()) throw BadInput(words);
+  if (!complaint.empty()) throw BadInput(complaint);
   if (status != 0)
     bad_input("{}: found DICOM data that its reader cannot bear, expected undamaged files", path.string());
 }
@@ -227,6 +211,16 @@ bool is_dicom(const fs::path& path) {
 Volume read_dicom(const fs::path& path, const ReadOptions& options) {
   try_reading(path, options);
   return read_series(path, options);
+}
+
+VolumeFormat formats::dicom() {
+  return {.name = "DICOM (a folder of slices, or a file of several frames)",
+          .recognises = [](const fs::path& path, const ReadOptions&) { return is_dicom(path); },
+          .files =
+              [](const fs::path& path) {
+                return fs::is_directory(path) ? files_in(path) : std::vector<fs::path>{path};
+              },
+          .read = read_dicom};
 }
 
 }  // namespace pendular

@@ -5,6 +5,7 @@
 
 #include "base/interrupt.h"
 #include "base/progress.h"
+#include "volume/format.h"
 #include "volume/image_io.h"
 
 namespace pendular {
@@ -100,6 +101,13 @@ Volume read_slices(const fs::path& folder, const ReadOptions& options) {
   }
   place(volume, nullptr, folder, options);
   return volume;
+}
+
+VolumeFormat formats::slices() {
+  return {.name = "folder of TIFF or PNG slices",
+          .recognises = [](const fs::path& path, const ReadOptions&) { return fs::is_directory(path); },
+          .files = slice_files,
+          .read = read_slices};
 }
 
 }  // namespace pendular

@@ -8,6 +8,7 @@
 #include "base/interrupt.h"
 #include "volume/header_text.h"
 #include "volume/pixels.h"
+#include "volume/place.h"
 #include "volume/voxel_header.h"
 
 namespace pendular {
@@ -129,6 +130,21 @@ void read_voxels(const VoxelHeader& header, const fs::path& path, Volume& volume
     }
   }
   if (header.big_endian && header.encoding != Encoding::text) swap_bytes(volume);
+}
+
+Volume read_with_header(const VoxelHeader& header, const fs::path& path, const ReadOptions& options) {
+  Volume volume;
+  volume.size = header.size;
+  volume.pixels = header.pixels;
+  const auto edges = place(volume, &header.place, path, options);
+  read_voxels(header, path, volume);
+  return made_cubic(std::move(volume), edges, path);
+}
+
+std::vector<fs::path> files_of(const fs::path& path, const VoxelHeader& header) {
+  std::vector<fs::path> files = {path};
+  files.insert(files.end(), header.files.begin(), header.files.end());
+  return files;
 }
 
 }  // namespace pendular

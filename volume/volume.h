@@ -73,15 +73,14 @@ struct ReadOptions {
   std::string raw_type;  ///< of a headerless file: uint8, uint16 or float, little endian
 };
 
-/// Reads MetaImage (.mha, .mhd), NRRD, multi-page TIFF, a folder of TIFF or PNG slices in the natural order
-/// of their names (z rising), DICOM (a series in a folder, or a file of several frames; lengths in mm), a GE
-/// phoenix volume (.pcr, or .vol beside one; mm), or, with `raw_size`, a headerless file. Other lengths in a
-/// header count as µm, unless an NRRD names another unit; spacing 1 or none means unknown: 1 µm, with a
-/// warning. Voxels that are not cubic are taken to cubic ones of their shortest edge
-/// (volume/resample.h), with a warning. BadInput, in one line, for whatever does not hold a grey
-/// volume: truncated data, a header that does not match it, a missing slice, slices of several sizes,
-/// colours, other pixel types, NaN or infinity, or one grey value throughout. Uncompressed MetaImage,
-/// headerless and phoenix data stay in their file, so the volume may be larger than memory.
+/// Reads a volume of any known format (volume/format.h): MetaImage, NRRD, multi-page TIFF, a folder of TIFF
+/// or PNG slices in the natural order of their names (z rising), DICOM (lengths in mm), GE phoenix (mm), or,
+/// with `raw_size`, a headerless file. Other lengths in a header count as µm, unless an NRRD names another
+/// unit; spacing 1 or none means unknown: 1 µm, with a warning. Voxels that are not cubic are taken to cubic
+/// ones of their shortest edge (volume/resample.h), with a warning. BadInput, in one line, for whatever does
+/// not hold a grey volume: truncated data, a header that does not match it, a missing slice, slices of
+/// several sizes, colours, other pixel types, NaN or infinity, or one grey value throughout. Uncompressed
+/// MetaImage, headerless and phoenix data stay in their file, so the volume may be larger than memory.
 Volume read_volume(const fs::path& path, const ReadOptions& options = {});
 
 /// The files that a volume is read from: the one that is named and those that it names, or a folder's slices.

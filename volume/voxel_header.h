@@ -46,4 +46,10 @@ VoxelHeader read_nrrd_header(const fs::path& path);
 /// file does not hold exactly what the header says.
 void read_voxels(const VoxelHeader& header, const fs::path& path, Volume& volume);
 
+/// The volume that a header describes, on cubic voxels.
+Volume read_with_header(const VoxelHeader& header, const fs::path& path, const ReadOptions& options);
+
+/// The file of a header, and those that it names.
+std::vector<fs::path> files_of(const fs::path& path, const VoxelHeader& header);
+
 }  // namespace pendular

@@ -52,7 +52,7 @@ const std::vector<Planted> kPlanted = {{"none", 0.0},
 Sample sample_of(const std::string& path) {
   Sample sample = read_sample(fs::path(path));
   sample.specimen.diameter = 2100 * um, sample.specimen.height = 2200 * um;
-  sample.beads.diameters = "measured";
+  sample.beads.diameters = Diameters::measured;
   sample.observe = {false, false, false, false, false};
   sample.compression.frames = 0.0;
   sample.compression.max_strain = 1.005 * kStrain;

@@ -27,7 +27,7 @@ PlatenProgram::PlatenProgram(const Simulation& simulation, const Sample& sample)
 }
 
 void PlatenProgram::drive(Simulation& simulation, PlatenProgress& progress) const {
-  if (asked_.control == "stress") return follow_ramp(simulation);
+  if (asked_.control == Control::stress) return follow_ramp(simulation);
   if (hold(simulation, progress)) {
     simulation.bottom.velocity = 0.0;
     return;

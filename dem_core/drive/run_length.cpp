@@ -13,10 +13,11 @@ constexpr double kStepsPerIncrement = 1000.0;
 
 double expected_steps(const Sample& sample) {
   const auto& asked = sample.compression;
-  if (asked.control == "relaxation") return kStepsPerIncrement * asked.max_strain / asked.relax_increment;
+  if (asked.control == Control::relaxation)
+    return kStepsPerIncrement * asked.max_strain / asked.relax_increment;
   const double mean = sample.beads.diameter;
-  const double spread =
-      sample.beads.diameters == "measured" ? sample.beads.diameter_sd / mean : sample.beads.realisation_sd;
+  const double spread = sample.beads.diameters == Diameters::measured ? sample.beads.diameter_sd / mean
+                                                                      : sample.beads.realisation_sd;
   // Time step over √(m/k_glass) of a mean bead.
   const double step = sample.contact.time_step_fraction * std::pow(std::max(0.5, 1.0 - 3.0 * spread), 1.5);
   const double bead_mass = sample.beads.density * M_PI / 6.0 * mean * mean * mean;

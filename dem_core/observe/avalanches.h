@@ -3,17 +3,9 @@
 #include <vector>
 
 #include "dem_core/simulation.h"
+#include "run_folder/events.h"
 
 namespace pendular {
-
-/// Breaks that follow from one another.
-struct Avalanche {
-  double first_strain = 0.0, last_strain = 0.0;
-  int breaks = 0;
-  double energy = 0.0;         ///< released, J
-  Vec3 centre = Vec3::Zero();  ///< mean place of its breaks, m
-  double extent = 0.0;         ///< largest distance of a break from the centre, m
-};
 
 /// Two breaks belong together where they are no farther apart than both.
 struct AvalancheWindow {

@@ -3,22 +3,9 @@
 #include <optional>
 #include <vector>
 
-namespace pendular {
+#include "run_folder/curve.h"
 
-/// One row of a stress–strain curve; means over the row's interval. SI.
-struct CurveRow {
-  double strain = 0.0;                  ///< engineering strain from platen displacement
-  double stress = 0.0;                  ///< force on the fixed platen over the initial section, Pa
-  double stress_bottom = 0.0;           ///< the same on the moving platen
-  double broken_bonds = 0.0;            ///< since the start
-  double kinetic = 0.0, elastic = 0.0;  ///< energies at the row's end, J
-  double work = 0.0, damped = 0.0, slipped = 0.0, released = 0.0,
-         halted = 0.0;            ///< running totals at the row's end, J
-  double coordination = 0.0;      ///< standing bonds per bead
-  double lateral_strain = 0.0;    ///< at mid-height at the row's end, expansion positive
-  double inertial_number = 0.0;   ///< see quasi_static.h
-  double unbalanced_force = 0.0;  ///< at the row's end
-};
+namespace pendular {
 
 /// What is read off a curve, as the paper does it.
 struct CurveFeatures {

@@ -3,42 +3,30 @@
 #include <cmath>
 
 #include "dem_core/observe/frame_observers.h"
+#include "run_folder/frame.h"
 
 namespace pendular {
-namespace {
-
-constexpr double kUm = 1e6;  // µm per m
-
-}  // namespace
-
 void write_frame(const fs::path& path, const Simulation& simulation,
                  const std::vector<std::int64_t>& bead_ids, double stress, const Sample::Observe& observe) {
   const auto& beads = simulation.beads;
-  PolyTable table;
-  std::vector<Vec3> displacement;
-  std::vector<double> diameter;
+  RunFrame frame;
+  frame.strain = simulation.strain(), frame.stress = stress;
+  frame.platen_bottom = simulation.bottom.z, frame.platen_top = simulation.top.z;
+  frame.specimen_diameter = std::sqrt(4.0 / M_PI * simulation.section);
+  frame.ids = bead_ids;
+  frame.position = beads.position;
   for (std::size_t k = 0; k < beads.size(); ++k) {
-    table.points.push_back(kUm * beads.position[k]);
-    displacement.push_back(kUm * (beads.position[k] - beads.start[k]));
-    diameter.push_back(kUm * 2.0 * beads.radius[k]);
+    frame.displacement.push_back(beads.position[k] - beads.start[k]);
+    frame.diameter.push_back(2.0 * beads.radius[k]);
   }
-  table.point_data = {{"bead_id", bead_ids}, {"diameter_um", diameter}, {"displacement_um", displacement}};
   const auto lines = links(simulation);
-  std::vector<std::int64_t> state;
   for (const auto& line : lines) {
-    table.lines.push_back({line.i, line.j});
-    state.push_back(line.state);
+    frame.pairs.push_back({line.i, line.j});
+    frame.lines.push_back(static_cast<RunFrame::Line>(line.state));
   }
-  table.line_data = {{"state", state}};
+  PolyTable table = table_of(frame);
   for (const auto& observer : frame_observers())
     if (observe.*observer.switched_on) observer.add(simulation, lines, table);
-  table.number_fields = {{"strain", simulation.strain()},
-                         {"stress_pa", stress},
-                         {"platen_bottom_um", kUm * simulation.bottom.z},
-                         {"platen_top_um", kUm * simulation.top.z},
-                         {"specimen_diameter_um", kUm * std::sqrt(4.0 / M_PI * simulation.section)}};
-  table.text_fields = {{"units", "coordinates in um; SI or the unit in an array's name otherwise"},
-                       {"line_states", "0 bond, 1 broken bond, 2 contact without bond"}};
   write_polydata(path, table);
 }
 

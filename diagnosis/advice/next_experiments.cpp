@@ -74,10 +74,7 @@ class Prospect {
   }
 
  private:
-  static bool is_effect(const DesignPoint& point) {
-    const auto& all = effects::all_effects();
-    return std::any_of(all.begin(), all.end(), [&](const auto& effect) { return effect.id == point.id; });
-  }
+  static bool is_effect(const DesignPoint& point) { return effects::known_effect(point.id) != nullptr; }
 
   /// The tests of a point that the bank has; the others are asked for.
   SimulatedTests known_tests(std::size_t point) {

@@ -7,7 +7,6 @@
 #include "diagnosis/bank/contact_features.h"
 #include "diagnosis/bank/law_readings.h"
 #include "diagnosis/experiment/believed.h"
-#include "diagnosis/experiment/funicular.h"
 #include "diagnosis/experiment/specimens.h"
 #include "effects/list.h"
 
@@ -22,11 +21,6 @@ constexpr int kOfALaw = 4;       // members that are run with the other reading 
 constexpr double kMostBeads = 2000.0, kBankBeads = 1500.0;
 constexpr double kAbout = 1.5;  // of a magnitude that beads show, the largest in the bank
 constexpr double kModulusShare = 0.05, kFractionSd = 0.01;  // of believed inputs of which nothing is stated
-
-bool is_effect(const std::string& id) {
-  const auto& all = effects::all_effects();
-  return std::any_of(all.begin(), all.end(), [&](const auto& effect) { return effect.id == id; });
-}
 
 const SampleKey& key_of(const std::string& name) {
   static const std::vector<SampleKey> keys = sample_keys();
@@ -44,8 +38,9 @@ double moved(const Experiment& experiment, const Sample& sample, const std::stri
 /// Magnitudes of an effect in the bank: about what the measured beads themselves show of it, where they do.
 std::vector<double> magnitudes_of(const effects::Effect& effect, int levels, const Experiment& experiment) {
   std::vector<double> found;
-  if (const auto shown =
-          experiment.contacts ? magnitude_shown(effect.id, *experiment.contacts) : std::nullopt) {
+  if (const auto shown = experiment.contacts && effect.shown_by_beads
+                             ? effect.shown_by_beads(*experiment.contacts)
+                             : std::nullopt) {
     for (int k = 1; k <= levels; ++k)
       found.push_back(std::clamp(kAbout * k / levels * *shown, effect.lowest, effect.highest));
     return found;
@@ -62,11 +57,12 @@ std::vector<double> magnitudes_of(const effects::Effect& effect, int levels, con
 
 /// Why an effect cannot act in any of these tests; empty where it can.
 std::string why_inert(const effects::Effect& effect, const std::vector<Condition>& conditions) {
-  if (effect.id != "funicular_bridges") return "";
-  for (const auto& condition : conditions)
-    if (condition.sample.bridges.polymer_content > kFunicularContent) return "";
-  return fmt::format("no specimen has more polymer than the funicular transition, W* = {}",
-                     kFunicularContent);
+  std::string why;
+  for (const auto& condition : conditions) {
+    why = effect.inert_in ? effect.inert_in(condition.sample) : "";
+    if (why.empty()) break;
+  }
+  return why;
 }
 
 /// A specimen of the same shape with fewer beads.
@@ -152,10 +148,10 @@ Sample changed_condition(const Experiment& experiment, const Condition& conditio
     for (const auto& [id, value] : changes) {
       if (const LawReading* reading = find_law_reading(id))
         reading->other(sample);
-      else if (!is_effect(id))
+      else if (const effects::Effect* effect = effects::known_effect(id); !effect)
         set_sample_key(sample, id, moved(experiment, condition.sample, id, value));
       else if (value != 0.0)
-        sample.effects[id] = effects::find_effect(id, "diagnosis").of_the_ends ? size * value : value;
+        sample.effects[id] = effect->of_the_ends ? size * value : value;
     }
   });
 }

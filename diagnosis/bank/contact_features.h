@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,18 +16,14 @@ struct ContactFeature {
 };
 
 /// The mean gap of touching beads and, where errors are stated, its variance: without errors of measurement
-/// beyond those stated, zero and what is stated. Beads of a real or simulated packing overlap and part by
-/// some thousandths of their diameter where they touch; the standard errors hold that.
+/// beyond those stated, zero and what is stated. The standard errors hold what touching beads overlap and
+/// part by (kTouchingGap, kTouchingScatter).
 std::vector<ContactFeature> contact_features(const ContactPeak& peak);
 
 bool is_of_beads(const Feature& feature);
 
-/// The peak that a table with these stated errors should have: diameters too large by θ draw it to −θ,
-/// unreported noise θ of centres adds 2θ² to its variance.
+/// The peak that a table with these stated errors should have: at zero and as wide as they say, but for
+/// effects on the measurement (Effect::contacts).
 ContactPeak expected_contacts(ContactPeak observed, const Changes& changes);
-
-/// The magnitude of an effect that the peak shows by itself; nothing of other effects, or where it shows none
-/// beyond noise.
-std::optional<double> magnitude_shown(const std::string& effect, const ContactPeak& peak);
 
 }  // namespace pendular::diagnosis

@@ -20,11 +20,7 @@ constexpr unsigned long kSeedOfHeld =
 
 /// The effect that is changed, and nothing else; nullptr: none, a pair, or a believed input.
 const effects::Effect* only_effect_in(const Changes& changes) {
-  if (changes.size() != 1) return nullptr;
-  const auto& all = effects::all_effects();
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const auto& effect) { return effect.id == changes.begin()->first; });
-  return found == all.end() ? nullptr : &*found;
+  return changes.size() == 1 ? effects::known_effect(changes.begin()->first) : nullptr;
 }
 
 void widen(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& block) {

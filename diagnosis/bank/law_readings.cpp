@@ -9,7 +9,7 @@ const std::vector<LawReading>& law_readings() {
       {"tangential_springs", "one tangential spring or two",
        [](Sample& sample) {
          auto& springs = sample.contact.tangential_springs;
-         springs = springs == "one" ? "two" : "one";
+         springs = springs == TangentialSprings::one ? TangentialSprings::two : TangentialSprings::one;
        }},
       {"bond_friction_limit", "Coulomb's limit on bonds",
        [](Sample& sample) { sample.contact.bond_friction_limit = !sample.contact.bond_friction_limit; }},

@@ -7,7 +7,7 @@ namespace {
 
 BondStiffness by_finite_elements(Sample sample) {
   sample.bridges.normal_stiffness = sample.bridges.tangential_stiffness = std::nullopt;
-  sample.bridges.stiffness = "one";
+  sample.bridges.stiffness = StiffnessOf::one;
   return bond_stiffness(sample);
 }
 

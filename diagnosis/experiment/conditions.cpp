@@ -6,8 +6,8 @@
 
 #include "dem_core/simulation.h"
 #include "diagnosis/experiment/believed.h"
-#include "diagnosis/experiment/funicular.h"
 #include "diagnosis/kinds/kind.h"
+#include "effects/funicular.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -50,7 +50,7 @@ std::vector<double> rounded(std::vector<double> strains) {
 
 /// Diameters of measured beads are not drawn anew; nothing is shown that no observation asks for.
 void set_course(Sample& sample, const Observation& observation) {
-  if (!observation.beads.empty()) sample.beads.diameters = "measured";
+  if (!observation.beads.empty()) sample.beads.diameters = Diameters::measured;
   sample.observe = {false, false, false, false, false};
   sample.compression.frames = 0.0;
   sample.compression.frame_at.clear();
@@ -97,7 +97,7 @@ fs::path network_of(const Experiment& experiment, const fs::path& beads) {
 /// A specimen whose network was measured has it, and each bridge its own neck.
 void set_network(Condition& condition, const Experiment& experiment) {
   condition.network = network_of(experiment, condition.beads);
-  if (!condition.network.empty()) condition.sample.bridges.stiffness = "per_bridge";
+  if (!condition.network.empty()) condition.sample.bridges.stiffness = StiffnessOf::per_bridge;
 }
 
 Condition condition_of(const Experiment& experiment, std::size_t index) {
@@ -144,7 +144,9 @@ std::vector<std::size_t> supporting_rows(const std::vector<double>& at, bool by_
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return at[a] < at[b]; });
   for (std::size_t k = 0; k < order.size(); ++k) {
-    const auto beyond = [&](std::size_t n) { return by_content && at[order[n]] > kFunicularContent; };
+    const auto beyond = [&](std::size_t n) {
+      return by_content && at[order[n]] > effects::kFunicularContent;
+    };
     const bool end = k == 0 || k + 1 == order.size();
     if (end || beyond(k) != beyond(k - 1) || beyond(k) != beyond(k + 1)) rows.push_back(order[k]);
   }

@@ -10,6 +10,7 @@
 #include "diagnosis/kinds/curve_signature.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
+#include "effects/list.h"
 #include "packing/generate.h"
 #include "packing/tables.h"
 
@@ -84,7 +85,8 @@ Experiment with(const Experiment& experiment, const Kind& kind, double strain) {
 }
 
 /// A kind that the experiment does not have yet.
-FurtherMeasurement of_kind(const Kind& kind, const std::string& name, double cost, const std::string& why) {
+FurtherMeasurement of_kind(const Kind& kind) {
+  const auto& [name, why, cost] = *kind.usual;
   return {name, why, cost, [&kind](const Experiment& e) -> std::optional<Experiment> {
             if (has(e, kind)) return std::nullopt;
             return with(e, kind, farthest_strain(e));
@@ -163,56 +165,50 @@ FurtherMeasurement scan_at(double strain) {
           }};
 }
 
-std::vector<FurtherMeasurement> made() {
+/// Kinds that an experiment may lack, the cheapest first.
+void add_kinds(std::vector<FurtherMeasurement>& all) {
+  for (const Kind* kind : all_kinds())
+    if (kind->usual) all.push_back(of_kind(*kind));
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
+}
+
+/// More tests and scans.
+void add_tests(std::vector<FurtherMeasurement>& all) {
   const std::string polymer = "bridges.youngs_modulus_pa", height = "specimen.height_um";
-  return {of_kind(kinds::lateral_strain(), "lateral strain at mid-height", 0.3,
-                  "rearrangement and the ends show in it, a softer polymer does not"),
-          of_kind(kinds::broken_bonds(), "acoustic events, or broken bridges, against strain", 0.3,
-                  "when bonds break, and how many"),
-          of_kind(kinds::coordination(), "bridges per bead, counted in a tomogram", 0.5,
-                  "how many of the near pairs have a bridge"),
-          of_kind(kinds::bridge_diameters(), "necks of sixty bridges, measured in a tomogram", 0.5,
-                  "how thick bridges are, and how much they differ"),
-          of_kind(kinds::bridge_gaps(), "gaps of sixty bridges, measured in a tomogram", 0.7,
-                  "how far apart the beads of a bridge are"),
-          of_kind(kinds::bridge_stiffness(), "twenty single bridges by micropipettes", 1.0,
-                  "stiffness and course of a bridge without the network"),
-          scan_at(0.01),
-          scan_at(0.02),
-          scan_at(0.05),
-          {"unloading loops at 2, 4 and 6 % of strain",
-           "damage lowers the unloading modulus, a softer law does not", 1.0, unloaded},
-          of_another(height, kShorter, "a specimen of half the height",
-                     "what sits at the ends or in the machine counts twice as much"),
-          of_another(polymer, kStiffer, "a specimen with a polymer four times as stiff",
-                     "a compliance in series counts four times as much, geometry as before"),
-          {"another specimen, ten times as slowly", "only what takes time depends on the rate", 1.2, slower},
-          {"the platens pressed on a steel block",
-           "the compliance of frame and load cell by itself",
-           0.2,
-           nullptr,
-           {"machine_compliance"}},
-          {"a calibration sphere scanned with the specimen",
-           "voxel size and the threshold's bias by themselves",
-           0.3,
-           nullptr,
-           {"voxel_scale", "diameter_bias"}},
-          {"sliding friction of two glued beads, and of a bead on the platen",
-           "both coefficients by themselves",
-           0.5,
-           nullptr,
-           {"bead_friction", "platen_friction"}},
-          {"the simulation at half the speed",
-           "the only one that needs no experiment",
-           0.1,
-           nullptr,
-           {"loading_rate"}}};
+  const std::vector<FurtherMeasurement> tests = {
+      scan_at(0.01),
+      scan_at(0.02),
+      scan_at(0.05),
+      {"unloading loops at 2, 4 and 6 % of strain",
+       "damage lowers the unloading modulus, a softer law does not", 1.0, unloaded},
+      of_another(height, kShorter, "a specimen of half the height",
+                 "what sits at the ends or in the machine counts twice as much"),
+      of_another(polymer, kStiffer, "a specimen with a polymer four times as stiff",
+                 "a compliance in series counts four times as much, geometry as before"),
+      {"another specimen, ten times as slowly", "only what takes time depends on the rate", 1.2, slower}};
+  all.insert(all.end(), tests.begin(), tests.end());
+}
+
+/// Those that are not of a specimen, each with all effects that it settles.
+void add_direct(std::vector<FurtherMeasurement>& all) {
+  const auto first = static_cast<std::ptrdiff_t>(all.size());
+  for (const auto& effect : effects::all_effects()) {
+    if (!effect.settled_by) continue;
+    const auto& [name, why, cost] = *effect.settled_by;
+    auto found = std::find_if(all.begin() + first, all.end(),
+                              [&](const FurtherMeasurement& one) { return one.name == name; });
+    if (found == all.end()) found = all.insert(all.end(), {name, why, cost});
+    found->settles.insert(effect.id);
+  }
 }
 
 }  // namespace
 
-const std::vector<FurtherMeasurement>& further_measurements() {
-  static const std::vector<FurtherMeasurement> all = made();
+std::vector<FurtherMeasurement> further_measurements() {
+  std::vector<FurtherMeasurement> all;
+  add_kinds(all);
+  add_tests(all);
+  add_direct(all);
   return all;
 }
 

@@ -22,7 +22,7 @@ struct FurtherMeasurement {
 };
 
 /// Every measurement that is reckoned with. Tests go as far as the farthest of the experiment.
-const std::vector<FurtherMeasurement>& further_measurements();
+std::vector<FurtherMeasurement> further_measurements();
 
 /// One compression test, planned, of a specimen whose beads were scanned at rest; they are made up from the
 /// sample and written into `folder`. `beliefs`: an experiment without observations.

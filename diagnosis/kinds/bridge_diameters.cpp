@@ -3,6 +3,7 @@
 
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
+#include "effects/list.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -20,8 +21,7 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
 
 Columns simulate(const Observation& observation, const Simulated& simulated) {
   const Sample& sample = simulated.sample;
-  const double spread =
-      std::max(kUm * sample.bridges.diameter_sd, effect_magnitude(sample, "bridge_diameter_spread"));
+  const double spread = effects::spread_of_bridges(sample).diameter_sd;
   return {{"d_um", spread_about(kUm * sample.bridges.diameter, spread, observation.rows())}};
 }
 
@@ -67,14 +67,16 @@ Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
 
 }  // namespace
 
-/// A sample of measured necks. Simulated: of the stated mean, and of the larger of the stated spread and that
-/// of the effect bridge_diameter_spread.
+/// A sample of measured necks. Simulated: of the stated mean, and of the stated spread as effects change it
+/// (Effect::single_bridges).
 const Kind& kinds::bridge_diameters() {
   static const Kind kind{.name = "bridge_diameters",
                          .required = {"d_um"},
                          .optional = {"sigma_um"},
                          .least_rows = 4,
                          .scale = Scale::bridge,
+                         .usual = UsualMeasurement{"necks of sixty bridges, measured in a tomogram",
+                                                   "how thick bridges are, and how much they differ", 0.5},
                          .of_bridges = true,
                          .check = check,
                          .simulate = simulate,

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
+#include "effects/list.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -27,7 +28,7 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
 
 Columns simulate(const Observation&, const Simulated& simulated) {
   const Sample& sample = simulated.sample;
-  return {{"gap_um", {kUm * sample.bridges.gap + effect_magnitude(sample, "bridge_gap_spread")}}};
+  return {{"gap_um", {kUm * sample.bridges.gap + effects::spread_of_bridges(sample).gap_excess}}};
 }
 
 std::vector<Feature> landmarks(const Observation& observation, const Columns& columns) {
@@ -66,6 +67,8 @@ const Kind& kinds::bridge_gaps() {
                          .optional = {"sigma_um"},
                          .least_rows = 4,
                          .scale = Scale::bridge,
+                         .usual = UsualMeasurement{"gaps of sixty bridges, measured in a tomogram",
+                                                   "how far apart the beads of a bridge are", 0.7},
                          .of_bridges = true,
                          .check = check,
                          .simulate = simulate,

@@ -7,6 +7,7 @@
 #include "base/median.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
+#include "effects/list.h"
 #include "micromechanics/stiffness.h"
 
 namespace pendular::diagnosis {
@@ -66,7 +67,7 @@ Columns at_gap(const Observation& observation, const Sample& sample, double gap)
 
 /// Bridges cut from the specimen have its gaps: the mean logarithm over their distribution.
 Columns of_specimen(const Observation& observation, const Sample& sample) {
-  const double spread = effect_magnitude(sample, "bridge_gap_spread") / kUm, least = sample.bridges.gap;
+  const double spread = effects::spread_of_bridges(sample).gap_excess / kUm, least = sample.bridges.gap;
   Columns sum = at_gap(observation, sample, least);
   if (spread <= 0.0) return sum;
   for (const char* name : {"kn_n_per_m", "kt_n_per_m"}) std::fill(sum[name].begin(), sum[name].end(), 0.0);
@@ -228,21 +229,24 @@ Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
 /// stiffness where one is stated: at the gap at which they were made (origin = "made"; gap_um, the sample's
 /// where it is not stated, within gap_sigma_um), or with the specimen's gaps (origin = "specimen").
 const Kind& kinds::bridge_stiffness() {
-  static const Kind kind{.name = "bridge_stiffness",
-                         .required = {"d_um", "D_um"},
-                         .optional = {"kn_n_per_m", "kn_sigma_n_per_m", "kt_n_per_m", "kt_sigma_n_per_m"},
-                         .scale = Scale::bridge,
-                         .keys = {{"origin", {"made", "specimen"}},
-                                  {"gap_um", {}, 0.0, 1e3, 0.0},
-                                  {"gap_sigma_um", {}, 0.0, 1e3, 0.0}},
-                         .of_bridges = true,
-                         .check = check,
-                         .simulate = simulate,
-                         .landmarks = landmarks,
-                         .perturbed = perturbed,
-                         .planned = planned,
-                         .shown = shown,
-                         .model_error = model_error};
+  static const Kind kind{
+      .name = "bridge_stiffness",
+      .required = {"d_um", "D_um"},
+      .optional = {"kn_n_per_m", "kn_sigma_n_per_m", "kt_n_per_m", "kt_sigma_n_per_m"},
+      .scale = Scale::bridge,
+      .keys = {{"origin", {"made", "specimen"}},
+               {"gap_um", {}, 0.0, 1e3, 0.0},
+               {"gap_sigma_um", {}, 0.0, 1e3, 0.0}},
+      .usual = UsualMeasurement{"twenty single bridges by micropipettes",
+                                "stiffness and course of a bridge without the network", 1.0},
+      .of_bridges = true,
+      .check = check,
+      .simulate = simulate,
+      .landmarks = landmarks,
+      .perturbed = perturbed,
+      .planned = planned,
+      .shown = shown,
+      .model_error = model_error};
   return kind;
 }
 

@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
+#include "effects/list.h"
 #include "packing/packing.h"
 #include "packing/tables.h"
 
@@ -106,11 +107,8 @@ Columns simulate(const Observation& observation, const Simulated& simulated) {
   }
   if (!columns.contains("bridge_diameter_um")) return columns;
   // Of necks a test knows only what its sample says: mean and spread.
-  const auto& bridges = simulated.sample.bridges;
-  const double spread =
-      std::max(kUm * bridges.diameter_sd, effect_magnitude(simulated.sample, "bridge_diameter_spread"));
-  columns["neck_mean_um"] = {kUm * bridges.diameter};
-  columns["neck_spread_um"] = {spread};
+  columns["neck_mean_um"] = {kUm * simulated.sample.bridges.diameter};
+  columns["neck_spread_um"] = {effects::spread_of_bridges(simulated.sample).diameter_sd};
   return columns;
 }
 

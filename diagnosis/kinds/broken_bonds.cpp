@@ -125,6 +125,8 @@ const Kind& kinds::broken_bonds() {
                          .least_rows = 2,
                          .scale = Scale::network,
                          .keys = {{"counts", {"total", "per_interval"}}},
+                         .usual = UsualMeasurement{"acoustic events, or broken bridges, against strain",
+                                                   "when bonds break, and how many", 0.3},
                          .check = check,
                          .course = course,
                          .simulate = simulate,

@@ -58,6 +58,8 @@ const Kind& kinds::coordination() {
   static const Kind kind{.name = "coordination",
                          .required = {"z", "z_sigma"},
                          .scale = Scale::network,
+                         .usual = UsualMeasurement{"bridges per bead, counted in a tomogram",
+                                                   "how many of the near pairs have a bridge", 0.5},
                          .check = check,
                          .course = course,
                          .simulate = simulate,

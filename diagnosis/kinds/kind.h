@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,12 @@ struct KindKey {
   double lowest = 0.0, highest = 0.0, otherwise = 0.0;  ///< of a number
 };
 
+/// How the kind is measured where an experiment lacks it.
+struct UsualMeasurement {
+  std::string name, why;
+  double cost = 1.0;  ///< in units of one compression test
+};
+
 /// One kind of observation: everything that the diagnosis knows of it stands in the kind's own file. A hook
 /// is null where the kind has no part in the question.
 struct Kind {
@@ -37,37 +44,58 @@ struct Kind {
   std::size_t least_rows = 1;
   Scale scale = Scale::aggregate;
   std::vector<KindKey> keys = {};
+  /// With it, and `planned` and `shown`, the kind is among the further measurements.
+  std::optional<UsualMeasurement> usual = {};
   bool of_bridges = false;  ///< single bridges: answered by what a sample says of them, without a test
 
   /// Further columns, from the file's cells that are no numbers and from the specimen's beads.
-  void (*read)(Observation& observation, const CsvTable& table) = nullptr;
+  std::function<void(Observation& observation, const CsvTable& table)> read = nullptr;
   /// BadInput for what cannot be: a wrong unit, a sign, an order. What is odd but usable goes into
   /// `warnings`.
-  void (*check)(const Sample& believed, Observation& observation,
-                std::vector<std::string>& warnings) = nullptr;
+  std::function<void(const Sample& believed, Observation& observation, std::vector<std::string>& warnings)>
+      check = nullptr;
   /// Adds what its test must show to the course of the simulated one; null: needs none.
-  void (*course)(const Observation& observation, Sample::Compression& course) = nullptr;
+  std::function<void(const Observation& observation, Sample::Compression& course)> course = nullptr;
   /// The columns that the observation would have had.
-  Columns (*simulate)(const Observation& observation, const Simulated& simulated) = nullptr;
+  std::function<Columns(const Observation& observation, const Simulated& simulated)> simulate = nullptr;
   /// What a reader looks at, and what words are made of.
-  std::vector<Feature> (*landmarks)(const Observation& observation, const Columns& columns) = nullptr;
+  std::function<std::vector<Feature>(const Observation& observation, const Columns& columns)> landmarks =
+      nullptr;
   /// All that the columns say, at places that the observation fixes; null: the landmarks.
-  std::vector<Feature> (*readings)(const Observation& observation, const Columns& columns) = nullptr;
+  std::function<std::vector<Feature>(const Observation& observation, const Columns& columns)> readings =
+      nullptr;
   /// A displacement of every bead that was followed, without rigid motion and scale, m; three rows a bead.
-  Eigen::VectorXd (*field)(const Observation& observation, const Columns& columns) = nullptr;
+  std::function<Eigen::VectorXd(const Observation& observation, const Columns& columns)> field = nullptr;
   /// Columns as another measurement of the same might have them.
-  Columns (*perturbed)(const Observation& observation, unsigned long seed) = nullptr;
+  std::function<Columns(const Observation& observation, unsigned long seed)> perturbed = nullptr;
   /// Columns of such a measurement as it is usually made, up to a platen strain: where it reads and with
   /// which errors; what it will show is only rough. Null: it is not planned.
-  Columns (*planned)(const Observation& observation, const Sample& believed, double strain) = nullptr;
+  std::function<Columns(const Observation& observation, const Sample& believed, double strain)> planned =
+      nullptr;
   /// The planned columns once a simulation tells what they would show.
-  Columns (*shown)(const Observation& planned, const Columns& simulated) = nullptr;
+  std::function<Columns(const Observation& planned, const Columns& simulated)> shown = nullptr;
   /// Covariance of what the simulation itself may be off in these features, as they are compared.
-  Eigen::MatrixXd (*model_error)(const std::vector<Feature>& features) = nullptr;
+  std::function<Eigen::MatrixXd(const std::vector<Feature>& features)> model_error = nullptr;
 };
 
-/// Every kind, in the order of the documentation. Adding one: its file, its test, its line in list.cpp.
+/// Every kind, in the order of the documentation, then those that were added. Adding one: its file, its test,
+/// its line in list.cpp.
 const std::vector<const Kind*>& all_kinds();
+
+/// A kind that is no part of the library, at the end of the list as long as this lives. Add it before
+/// anything reads an experiment and remove it after, on one thread.
+class AddedKind {
+ public:
+  /// The kind must outlive this. BadInput where its name is empty or known already, or it lacks columns or
+  /// one of the hooks simulate, landmarks, perturbed and model_error.
+  explicit AddedKind(const Kind& kind);
+  ~AddedKind();
+  AddedKind(const AddedKind&) = delete;
+  AddedKind& operator=(const AddedKind&) = delete;
+
+ private:
+  const Kind& kind_;
+};
 
 /// BadInput, opening with `where`, names the nearest one where there is none.
 const Kind* find_kind(const std::string& name, const std::string& where);

@@ -112,19 +112,22 @@ Eigen::MatrixXd model_error(const std::vector<Feature>& features) {
 
 /// Mean radial expansion at mid-height against platen strain, on first loading.
 const Kind& kinds::lateral_strain() {
-  static const Kind kind{.name = "lateral_strain",
-                         .required = {"strain", "lateral_strain"},
-                         .optional = {"sigma"},
-                         .least_rows = 4,
-                         .check = check,
-                         .course = course,
-                         .simulate = simulate,
-                         .landmarks = landmarks,
-                         .readings = readings,
-                         .perturbed = perturbed,
-                         .planned = planned,
-                         .shown = shown,
-                         .model_error = model_error};
+  static const Kind kind{
+      .name = "lateral_strain",
+      .required = {"strain", "lateral_strain"},
+      .optional = {"sigma"},
+      .least_rows = 4,
+      .usual = UsualMeasurement{"lateral strain at mid-height",
+                                "rearrangement and the ends show in it, a softer polymer does not", 0.3},
+      .check = check,
+      .course = course,
+      .simulate = simulate,
+      .landmarks = landmarks,
+      .readings = readings,
+      .perturbed = perturbed,
+      .planned = planned,
+      .shown = shown,
+      .model_error = model_error};
   return kind;
 }
 

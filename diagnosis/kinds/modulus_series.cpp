@@ -2,9 +2,9 @@
 
 #include "base/error.h"
 #include "base/line_fit.h"
-#include "diagnosis/experiment/funicular.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
+#include "effects/funicular.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -45,7 +45,7 @@ std::vector<Feature> landmarks(const Observation& observation, const Columns& co
   const auto &at = columns.at(by_content ? "W" : "E_p_pa"), &modulus = columns.at("modulus_pa");
   std::vector<double> x, y, beyond;
   for (std::size_t k = 0; k < at.size(); ++k) {
-    if (by_content && at[k] > kFunicularContent) {
+    if (by_content && at[k] > effects::kFunicularContent) {
       beyond.push_back(std::log(modulus[k]));
       continue;
     }

@@ -2,61 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "base/csv.h"
 #include "base/error.h"
 #include "packing/polydata.h"
+#include "run_folder/run_folder.h"
 
 namespace pendular::diagnosis {
 namespace {
 
-std::vector<CurveRow> read_rows(const fs::path& path) {
-  const CsvTable table = read_csv(path, {"strain", "stress_pa", "broken_bonds", "lateral_strain"});
-  const auto strain = table.numbers("strain"), stress = table.numbers("stress_pa"),
-             broken = table.numbers("broken_bonds"), lateral = table.numbers("lateral_strain", true);
-  std::vector<CurveRow> rows(table.rows());
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    rows[k].strain = strain[k], rows[k].stress = stress[k];
-    rows[k].broken_bonds = broken[k], rows[k].lateral_strain = lateral[k];
-  }
-  return rows;
-}
-
-/// Vectors in µm to m.
-std::vector<Vec3> in_m(std::vector<Vec3> all) {
-  for (Vec3& one : all) one *= 1e-6;
-  return all;
-}
-
-Frame read_frame(const fs::path& path) {
-  constexpr std::int64_t kStanding = 0, kBroken = 1;
-  const PolyTable table = read_polydata(path);
+Frame frame_of(const fs::path& path) {
+  const RunFrame read = run_frame(read_polydata(path), path);
   Frame frame;
-  frame.strain = table.number_fields.at("strain");
-  frame.stress = table.number_fields.at("stress_pa");
-  frame.ids = integers(table, true, "bead_id", path);
-  frame.displacement = in_m(vectors(table, true, "displacement_um", path));
-  frame.rest = in_m(table.points);
-  for (std::size_t k = 0; k < frame.rest.size(); ++k) frame.rest[k] -= frame.displacement[k];
-  const auto state = integers(table, false, "state", path);
-  for (std::size_t k = 0; k < table.lines.size(); ++k) {
-    const auto a = frame.ids[static_cast<std::size_t>(table.lines[k][0])],
-               b = frame.ids[static_cast<std::size_t>(table.lines[k][1])];
-    if (state[k] == kStanding) frame.standing.insert(std::minmax(a, b));
-    if (state[k] == kBroken) frame.broken.insert(std::minmax(a, b));
+  frame.strain = read.strain, frame.stress = read.stress;
+  frame.ids = read.ids;
+  frame.displacement = read.displacement;
+  for (std::size_t k = 0; k < read.position.size(); ++k)
+    frame.rest.push_back(read.position[k] - read.displacement[k]);
+  for (std::size_t k = 0; k < read.pairs.size(); ++k) {
+    const auto pair = std::minmax(read.ids[static_cast<std::size_t>(read.pairs[k][0])],
+                                  read.ids[static_cast<std::size_t>(read.pairs[k][1])]);
+    if (read.lines[k] == RunFrame::Line::bond) frame.standing.insert(pair);
+    if (read.lines[k] == RunFrame::Line::broken) frame.broken.insert(pair);
   }
   return frame;
-}
-
-std::vector<Frame> read_frames(const fs::path& folder) {
-  std::vector<fs::path> paths;
-  if (fs::exists(folder))
-    for (const auto& entry : fs::directory_iterator(folder)) paths.push_back(entry.path());
-  std::sort(paths.begin(), paths.end());
-  std::vector<Frame> frames;
-  for (const auto& path : paths) frames.push_back(read_frame(path));
-  return frames;
 }
 
 }  // namespace
@@ -64,15 +32,15 @@ std::vector<Frame> read_frames(const fs::path& folder) {
 SimulatedTest read_simulated_test(const fs::path& folder) {
   SimulatedTest test;
   test.folder = folder;
-  test.rows = read_rows(folder / "curve.csv");
-  const auto result = nlohmann::json::parse(read_text(folder / "result.json"), nullptr, false);
-  if (result.is_discarded()) bad_input("{}: is damaged", (folder / "result.json").string());
-  const auto& specimen = result.at("specimen");
-  test.gauge = {1e-6 * specimen.at("section_mm2").get<double>(),
-                1e-6 * specimen.at("height_um").get<double>()};
-  const auto& z = result.at("coordination").at("bridges_per_interior_bead");
-  test.frames = read_frames(folder / "frames");
-  test.coordination = z.is_number() ? z.get<double>() : std::nan("");
+  test.rows = read_curve(folder / run_file::kCurve, {&CurveRow::strain, &CurveRow::stress,
+                                                     &CurveRow::broken_bonds, &CurveRow::lateral_strain});
+  const fs::path file = folder / run_file::kResult;
+  const RunResult result = read_result(file);
+  if (!result.section || !result.height)
+    bad_input("{}: specimen: found no section and height, expected those of a run", file.string());
+  test.gauge = {*result.section, *result.height};
+  for (const auto& path : frame_files(folder)) test.frames.push_back(frame_of(path));
+  test.coordination = result.coordination.value_or(std::nan(""));
   return test;
 }
 
@@ -99,11 +67,6 @@ Columns columns_of_rows(const SimulatedTest& test, const std::string& name, doub
     columns[name].push_back(row.*value);
   }
   return columns;
-}
-
-double effect_magnitude(const Sample& sample, const std::string& effect) {
-  const auto found = sample.effects.find(effect);
-  return found == sample.effects.end() ? 0.0 : found->second;
 }
 
 double simulated_modulus(const SimulatedTest& test) {

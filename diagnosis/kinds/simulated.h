@@ -47,9 +47,6 @@ const Frame& frame_near(const SimulatedTest& test, double strain);
 /// Columns "strain" and one more of a test's rows.
 Columns columns_of_rows(const SimulatedTest& test, const std::string& name, double CurveRow::*value);
 
-/// The magnitude of a sample's effect; 0 where it has none of that name.
-double effect_magnitude(const Sample& sample, const std::string& effect);
-
 /// A point that supports a simulated modulus series: E_p or W, and E.
 struct SeriesPoint {
   double at = 0.0, modulus = 0.0;

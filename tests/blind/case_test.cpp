@@ -165,7 +165,8 @@ TEST_F(Case, TruthIsOffTheBeliefByItsOffsets) {
   EXPECT_DOUBLE_EQ(true_sample(plan, *split, believed_b(*split, packing)).bridges.youngs_modulus,
                    4.5e6 + 3.0 * 2.0 * sigma);
   plan.law = "one_spring";
-  EXPECT_EQ(true_sample(plan, *split, believed_a(*split, packing)).contact.tangential_springs, "one");
+  EXPECT_EQ(true_sample(plan, *split, believed_a(*split, packing)).contact.tangential_springs,
+            TangentialSprings::one);
 }
 
 }  // namespace pendular::blind

@@ -164,6 +164,32 @@ TEST(Plan, WrongBeliefsAreOffByTwoSigmas) {
   }
 }
 
+TEST(Plan, AnAddedEffectIsDrawnButNotForAProgramThatLacksIt) {
+  const effects::AddedEffect added({.id = "toy_effect",
+                                    .unit = "1",
+                                    .name = "toy",
+                                    .sentence = "A toy.",
+                                    .meaning = "of a toy",
+                                    .lowest = 0.0,
+                                    .highest = 1.0,
+                                    .bank_from = 0.0,
+                                    .bank_to = 1.0,
+                                    .sample = [](Sample&, double) {}});
+  Split split = sealed_split();
+  split.engines = {"yade", "one_spring"};
+  split.cases = 400;
+  split.shares = {};
+  split.shares[static_cast<std::size_t>(Stratum::other_engine)] = 0.5;
+  split.shares[static_cast<std::size_t>(Stratum::library)] = 0.5;
+  std::set<std::string> engines;  // of cases with the effect
+  for (const auto& plan : plan_of(split))
+    if (plan.effects.contains("toy_effect")) {
+      engines.insert(plan.engine);
+      EXPECT_EQ(right_answer(plan), "toy_effect");
+    }
+  EXPECT_EQ(engines, (std::set<std::string>{"", "one_spring"}));
+}
+
 TEST(Plan, TheRightAnswerOfAPairIsInTheLibrarysOrder) {
   CasePlan plan;
   EXPECT_EQ(right_answer(plan), "none");

@@ -1,7 +1,7 @@
 #include "blind/scans.h"
 
-#include <nlohmann/json.hpp>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ struct Scanned {
   explicit Scanned(const Packing& packing_, CasePlan plan_ = {}) : plan(std::move(plan_)), packing(packing_) {
     split.sample.compression.speed = 2e-4;
     split.sample.bridges.normal_stiffness = 5760.0, split.sample.bridges.tangential_stiffness = 325.0;
-    split.sample.beads.diameters = "measured";
+    split.sample.beads.diameters = Diameters::measured;
     split.sample.specimen.diameter = packing.specimen.diameter,
     split.sample.specimen.height = packing.specimen.height;
     plan.seed = 17;

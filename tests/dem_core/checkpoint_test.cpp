@@ -142,7 +142,7 @@ TEST(Checkpoint, ResumedFromTheOneBeforeARunEndsWithTheSameBytes) {
   Sample unloading = short_test(), holding = short_test(), ramp = short_test();
   unloading.compression.unload_at = {0.002, 0.004};
   holding.compression.hold_at = {0.004};  // the checkpoint before the last is from within the hold
-  ramp.compression.control = "stress";
+  ramp.compression.control = Control::stress;
   ramp.compression.stress_rate = 1e10;
   for (const auto& [name, sample] : {Case{"unloading", unloading}, {"holding", holding}, {"ramp", ramp}}) {
     SCOPED_TRACE(name);
@@ -156,7 +156,7 @@ TEST(Checkpoint, ResumedFromTheOneBeforeARunEndsWithTheSameBytes) {
       whole[file] = sha256_of(folder / "run" / file);
     write_text(folder / "run" / "checkpoint", "damaged");
     const RunState before =
-        read_checkpoint(folder / "run" / "checkpoint.previous", sha256(to_json(options.provenance).dump()));
+        read_checkpoint(folder / "run" / "checkpoint.previous", work_identity(disordered(3, 3), sample, ""));
     ASSERT_FALSE(before.finished);
     EXPECT_EQ(before.platen.holding, std::string(name) == "holding");
     options.resume = true;
@@ -165,12 +165,38 @@ TEST(Checkpoint, ResumedFromTheOneBeforeARunEndsWithTheSameBytes) {
   }
 }
 
+TEST(Checkpoint, IsOfThePackingTheSampleAndTheEffectsWhoeverAsks) {
+  ScratchFolder folder;
+  CompressOptions options;
+  options.checkpoint_every = 0.0;
+  options.provenance = {"0.1", "pendular compress a.vtp", 1, {{"a.vtp", "aa"}}};
+  compress(disordered(3, 3), short_test(), folder / "run", options);
+  const std::string curve = read_text(folder / "run" / "curve.csv");
+  fs::remove(folder / "run" / "checkpoint");
+  options.resume = true;
+  options.provenance = {"0.2", "pendular compress b.vtp", 1, {{"b.vtp", "bb"}}};
+  Packing renamed = disordered(3, 3);
+  renamed.provenance.command = "another";
+  compress(renamed, short_test(), folder / "run", options);
+  const auto rows = [](const std::string& text) { return text.substr(text.find("strain,")); };
+  EXPECT_EQ(rows(read_text(folder / "run" / "curve.csv")), rows(curve));
+
+  Packing moved = disordered(3, 3);
+  moved.beads[5].centre.x() += 1e-12;
+  EXPECT_THROW(compress(moved, short_test(), folder / "run", options), BadInput);
+  Sample slower = short_test();
+  slower.compression.speed *= 0.5;
+  EXPECT_THROW(compress(disordered(3, 3), slower, folder / "run", options), BadInput);
+  options.work = "an effect";
+  EXPECT_THROW(compress(disordered(3, 3), short_test(), folder / "run", options), BadInput);
+}
+
 TEST(Checkpoint, StaysWhereMotionIsNotANumber) {
   ScratchFolder folder;
   CompressOptions options;
   options.checkpoint_every = 0.0;
   compress(disordered(3, 3), short_test(), folder / "run", options);
-  const std::string identity = sha256(to_json(options.provenance).dump());
+  const std::string identity = work_identity(disordered(3, 3), short_test(), "");
   RunState state = read_checkpoint(folder / "run" / "checkpoint.previous", identity);
   state.simulation.beads.velocity[20].x() = std::numeric_limits<double>::quiet_NaN();
   remove_checkpoints(folder / "run");

@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "dem_core/checkpoint.h"
-#include "dem_core/run_folder.h"
+#include "dem_core/run_result.h"
 #include "dem_core/step/stepper.h"
 #include "micromechanics/stiffness.h"
 #include "packing/polydata.h"
@@ -46,7 +46,7 @@ TEST(Compress, BridgesOfDifferentGapsAreDifferentSpringsInSeries) {
   // elements.
   Sample sample = sample_a();
   sample.bridges.normal_stiffness = sample.bridges.tangential_stiffness = std::nullopt;
-  sample.bridges.stiffness = "per_bridge";
+  sample.bridges.stiffness = StiffnessOf::per_bridge;
   sample.compression.max_strain = 5e-4;
   sample.compression.speed = 5e-7;  // slow: what damping adds to the stress is below 1 %
   sample.contact.damping_fraction = 0.5;

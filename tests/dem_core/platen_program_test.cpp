@@ -37,7 +37,7 @@ TEST(PlatenProgram, UnderStressControlStrainIsStressOverModulus) {
   const double modulus = modulus_of_springs();
   Sample sample = damped();
   sample.compression.max_strain = 0.01;
-  sample.compression.control = "stress";
+  sample.compression.control = Control::stress;
   sample.compression.max_stress = 4e-4 * modulus;
   sample.compression.stress_rate = modulus * 0.01 * platen_speed(sample) / kHeight;
   ScratchFolder folder;
@@ -52,7 +52,7 @@ TEST(PlatenProgram, UnderStressControlStrainIsStressOverModulus) {
 TEST(PlatenProgram, StressFollowsItsRamp) {
   Simulation simulation = build_simulation(springs(), damped());
   Sample sample = damped();
-  sample.compression.control = "stress";
+  sample.compression.control = Control::stress;
   sample.compression.stress_rate = 1e8;
   const PlatenProgram program(simulation, sample);
   PlatenProgress progress;

@@ -21,7 +21,7 @@ using test::ScratchFolder;
 
 Sample relaxed(double max_strain, double increment) {
   Sample sample = sample_a();
-  sample.compression.control = "relaxation";
+  sample.compression.control = Control::relaxation;
   sample.compression.max_strain = max_strain;
   sample.compression.relax_increment = increment;
   sample.compression.frames = 0;

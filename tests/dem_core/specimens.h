@@ -15,7 +15,7 @@ inline Sample sample_a() {
   Sample sample;
   sample.bridges.normal_stiffness = 5760.0;
   sample.bridges.tangential_stiffness = 325.0;
-  sample.beads.diameters = "measured";
+  sample.beads.diameters = Diameters::measured;
   return sample;
 }
 

@@ -38,7 +38,7 @@ Simulation violent(const Sample& sample, const Packing& packing, double k_bend =
 
 struct Law {
   const char* name;
-  const char* springs;
+  TangentialSprings springs;
   bool bond_friction_limit;
   double k_bend;
 };
@@ -90,16 +90,15 @@ TEST_P(Kernel, AgreesWithTheReferenceLoop) {
   EXPECT_NEAR(energies(fast).elastic, energies(slow).elastic, 1e-8 * energies(slow).elastic);
 }
 
-INSTANTIATE_TEST_SUITE_P(EverySet, Kernel,
-                         testing::Combine(testing::ValuesIn(instruction_sets()),
-                                          testing::Values(Law{"TwoSprings", "two", false, 0.0},
-                                                          Law{"TwoSpringsCoulomb", "two", true, 0.0},
-                                                          Law{"OneSpring", "one", false, 0.0},
-                                                          Law{"OneSpringCoulomb", "one", true, 0.0},
-                                                          Law{"Bending", "two", false, 3e-6})),
-                         [](const auto& test) {
-                           return std::get<0>(test.param) + std::get<1>(test.param).name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    EverySet, Kernel,
+    testing::Combine(testing::ValuesIn(instruction_sets()),
+                     testing::Values(Law{"TwoSprings", TangentialSprings::two, false, 0.0},
+                                     Law{"TwoSpringsCoulomb", TangentialSprings::two, true, 0.0},
+                                     Law{"OneSpring", TangentialSprings::one, false, 0.0},
+                                     Law{"OneSpringCoulomb", TangentialSprings::one, true, 0.0},
+                                     Law{"Bending", TangentialSprings::two, false, 3e-6})),
+    [](const auto& test) { return std::get<0>(test.param) + std::get<1>(test.param).name; });
 
 TEST(Stepper, RenumberedBeadsMoveTheSame) {
   const Packing packing = disordered(4, 4);

@@ -8,6 +8,7 @@
 #include "diagnosis/bank/feature_values.h"
 #include "diagnosis/experiment/specimens.h"
 #include "effects/compress.h"
+#include "effects/list.h"
 #include "measured_beads.h"
 #include "packing/bridges.h"
 #include "packing/tables.h"
@@ -64,15 +65,16 @@ TEST(ContactFeatures, AreWhatTheErrorsMakeOfTheTables) {
     const char* telling = effect == std::string("diameter_bias") ? "contact_gap_um" : "contact_variance_um2";
     EXPECT_GT(std::fabs(named(seen, telling).feature.value - named(believed, telling).feature.value),
               4.0 * named(seen, telling).sigma);
-    EXPECT_NEAR(magnitude_shown(effect, *peak).value(), theta, 0.15 * std::fabs(theta));
+    EXPECT_NEAR(effects::find_effect(effect, "test").shown_by_beads(*peak).value(), theta,
+                0.15 * std::fabs(theta));
   }
 }
 
 TEST(ContactFeatures, ShowNothingOfOtherEffectsOrWithoutErrors) {
   const auto peak = contact_peak({measured_beads()});
   ASSERT_TRUE(peak);
-  for (const char* effect : {"diameter_bias", "position_error", "missing_bridges"})
-    EXPECT_FALSE(magnitude_shown(effect, *peak));
+  for (const auto& effect : effects::all_effects())
+    EXPECT_FALSE(effect.shown_by_beads && effect.shown_by_beads(*peak)) << effect.id;
   auto unstated = measured_beads();
   for (auto& bead : unstated) bead.sigma_centre = bead.sigma_diameter = 0.0;
   EXPECT_EQ(contact_features(*contact_peak({unstated})).size(), 1u);  // its width can mean anything

@@ -35,7 +35,7 @@ class MeasuredNetwork : public testing::Test {
     condition_.sample.beads.diameter = kDiameter;
     condition_.sample.specimen.diameter = held.diameter;
     condition_.sample.specimen.height = held.height;
-    condition_.sample.beads.diameters = "measured";
+    condition_.sample.beads.diameters = Diameters::measured;
     condition_.beads = folder_.path() / "beads.csv";
     condition_.network = folder_.path() / "bridges.csv";
     write_beads(condition_.beads, beads, {});

@@ -31,7 +31,8 @@ volume_fraction = 0.58
 )";
 
 /// A specimen in closed form in the place of the simulation: a toe, a line of slope E ∝ E_p, a peak. Missing
-/// bridges soften it and show in Z; friction of beads raises what comes after the line; nothing else acts.
+/// bridges soften it and show in Z; friction of beads raises what comes after the line; toy_softness, which a
+/// test may add, lowers E alone; nothing else acts.
 class ToyRuns {
  public:
   explicit ToyRuns(const fs::path& folder) : folder_(folder) {}
@@ -51,7 +52,8 @@ class ToyRuns {
   std::string curve_text(const Sample& sample, std::uint64_t seed) const {
     std::string text = "strain,stress_pa,broken_bonds,lateral_strain\n";
     const double missing = of(sample, "missing_bridges"), friction = of(sample, "bead_friction");
-    const double modulus = 10.0 * sample.bridges.youngs_modulus * (1.0 - 2.0 * missing) * unexplained *
+    const double modulus = 10.0 * sample.bridges.youngs_modulus * (1.0 - 2.0 * missing) *
+                           (1.0 - of(sample, "toy_softness")) * unexplained *
                            (1.0 + 0.005 * random_normal(seed, 1));
     for (int k = 0; k <= kRows; ++k) {
       const double strain = kStrain * k / kRows, beyond = strain - 0.01;

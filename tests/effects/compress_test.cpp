@@ -26,7 +26,7 @@ std::string curve_of(const Sample& sample, const fs::path& folder, const Compres
 TEST(CompressWithEffects, WithoutEffectsIsTheModel) {
   Sample sample = all_at_once();
   sample.effects.clear();
-  sample.beads.diameters = "drawn";
+  sample.beads.diameters = Diameters::drawn;
   ScratchFolder folder;
   compress(realise(disordered(3, 4), sample, 5), sample, folder / "model", {});
   EXPECT_EQ(curve_of(sample, folder / "run"),

@@ -24,7 +24,7 @@ TEST(DiameterBias, LowersTheModulus) {
 
 TEST(DiameterBias, LowersTheNumberOfBridgesOfDrawnDiameters) {
   Sample sample = with("diameter_bias", 4.0);
-  sample.beads.diameters = "drawn";
+  sample.beads.diameters = Diameters::drawn;
   EXPECT_LT(actual_specimen(disordered(5, 5), sample, 1).bodies.size(),
             actual_specimen(disordered(5, 5), without(sample), 1).bodies.size());
 }

@@ -30,7 +30,7 @@ TEST(PolymerViscoelasticity, AHeldBondRelaxesAsTheStandardLinearSolid) {
 /// Sample A driven fast, and then held for five relaxation times.
 Sample held(double theta) {
   Sample sample = with("polymer_viscoelasticity", theta, 2e-3);
-  sample.compression.control = "speed";
+  sample.compression.control = Control::speed;
   sample.compression.rows_per_strain = 1e4;
   sample.compression.hold_at = {2e-3};
   sample.compression.hold = 0.05;

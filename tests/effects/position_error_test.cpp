@@ -38,13 +38,13 @@ TEST(PositionError, TheMeasurementReadsTheGivenBeads) {
 /// The effect makes errors known; those of an exact packing were not stated.
 TEST(PositionError, DoesNotChangeHowDiametersAreUsed) {
   Sample sample = with("position_error", 2.0);
-  sample.beads.diameters = "auto";
-  EXPECT_EQ(actual_specimen(disordered(4, 4), sample, 1).sample.beads.diameters, "drawn");
+  sample.beads.diameters = Diameters::automatic;
+  EXPECT_EQ(actual_specimen(disordered(4, 4), sample, 1).sample.beads.diameters, Diameters::drawn);
 }
 
 TEST(PositionError, LowersTheModulusOfDrawnDiameters) {
   Sample sample = with("position_error", 4.0);
-  sample.beads.diameters = "drawn";
+  sample.beads.diameters = Diameters::drawn;
   EXPECT_LT(modulus(disordered(5, 5), sample), modulus(disordered(5, 5), without(sample)));
 }
 

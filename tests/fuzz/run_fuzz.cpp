@@ -1,5 +1,5 @@
 #include "fuzz.h"
-#include "viz/run_folder.h"
+#include "run_folder/run_folder.h"
 
 /// A curve beside a good result, or a result beside a good curve.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -15,5 +15,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }();
   const bool curve = data[0] % 2 == 0 && whole;
   return fuzz::read_bytes(data + 1, size - 1, curve ? "a/curve.csv" : "b/result.json",
-                          [](const fs::path& path) { viz::read_run_curves(path.parent_path()); });
+                          [](const fs::path& path) { read_run_curves(path.parent_path()); });
 }

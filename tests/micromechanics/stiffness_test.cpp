@@ -64,7 +64,7 @@ TEST(Stiffness, OneForAllOrEachItsOwn) {
   ASSERT_EQ(same.size(), bodies.size());
   for (const auto& bond : same) EXPECT_EQ(bond.normal, bond_stiffness(sample).normal);
 
-  sample.bridges.stiffness = "per_bridge";
+  sample.bridges.stiffness = StiffnessOf::per_bridge;
   const auto each = bond_stiffnesses(sample, bodies);
   ASSERT_EQ(each.size(), bodies.size());
   for (std::size_t k = 0; k < bodies.size(); ++k) {

@@ -14,7 +14,7 @@ namespace {
 using test::measured_beads;
 using test::touching_beads;
 
-Sample sample_with(const std::string& diameters) {
+Sample sample_with(Diameters diameters) {
   Sample sample = test::touching_sample();
   sample.beads.diameters = diameters;
   return sample;
@@ -23,12 +23,12 @@ Sample sample_with(const std::string& diameters) {
 }  // namespace
 
 TEST(Measurement, DiametersAreUsedAsMeasuredWhereErrorsAreStated) {
-  EXPECT_EQ(Sample{}.beads.diameters, "auto");
+  EXPECT_EQ(Sample{}.beads.diameters, Diameters::automatic);
   const std::vector<Bead> stated = measured_beads(), exact = touching_beads();
-  EXPECT_EQ(diameters_used(sample_with("auto"), stated), "measured");
-  EXPECT_EQ(diameters_used(sample_with("auto"), exact), "drawn");
-  for (const char* word : {"measured", "drawn"})
-    for (const auto& beads : {stated, exact}) EXPECT_EQ(diameters_used(sample_with(word), beads), word);
+  EXPECT_EQ(diameters_used(sample_with(Diameters::automatic), stated), Diameters::measured);
+  EXPECT_EQ(diameters_used(sample_with(Diameters::automatic), exact), Diameters::drawn);
+  for (const auto asked : {Diameters::measured, Diameters::drawn})
+    for (const auto& beads : {stated, exact}) EXPECT_EQ(diameters_used(sample_with(asked), beads), asked);
 }
 
 TEST(Measurement, OfAnyBeadCountsAsStated) {
@@ -40,14 +40,14 @@ TEST(Measurement, OfAnyBeadCountsAsStated) {
 
 TEST(Measurement, ContactsAreClosedUnlessDiametersAreDrawn) {
   const std::vector<Bead> measured = measured_beads();
-  const Packing closed = packing_of(measured, sample_with("auto")),
-                left = packing_of(measured, sample_with("drawn"));
+  const Packing closed = packing_of(measured, sample_with(Diameters::automatic)),
+                left = packing_of(measured, sample_with(Diameters::drawn));
   for (std::size_t k = 0; k < measured.size(); ++k) EXPECT_EQ(left.beads[k].centre, measured[k].centre);
   // The generator leaves some hundredths of a micrometre between beads that touch.
   const auto truly = static_cast<double>(candidate_bridges(touching_beads(), 0.2e-6).size());
   EXPECT_NEAR(static_cast<double>(touching_pairs(closed.beads)), truly, 0.15 * truly);
   EXPECT_EQ(closed.bridges.size(),
-            candidate_bridges(closed.beads, 0.064 * sample_with("auto").beads.diameter).size());
+            candidate_bridges(closed.beads, 0.064 * sample_with(Diameters::automatic).beads.diameter).size());
 }
 
 TEST(Measurement, ClosingStaysWithinErrorsThatHoldAndNotWithinOthers) {

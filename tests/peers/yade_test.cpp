@@ -46,7 +46,7 @@ Sample small_sample() {
   sample.bridges.normal_stiffness = 5760.0;
   sample.bridges.tangential_stiffness = 325.0;
   sample.bridges.interfacial_energy = 7e6;
-  sample.beads.diameters = "measured";
+  sample.beads.diameters = Diameters::measured;
   sample.contact.bond_friction_limit = false;
   sample.specimen.diameter = sample.specimen.height = 1.3e-3;
   sample.specimen.volume_fraction = 0.56;

@@ -6,8 +6,8 @@ namespace pendular::reproduction {
 namespace {
 
 /// Stress that rises with a slope to 5 % of strain, then falls to half.
-viz::RunFolder made_up_run(double slope) {
-  viz::RunFolder run;
+RunFolder made_up_run(double slope) {
+  RunFolder run;
   for (int k = 0; k <= 100; ++k) {
     const double strain = 0.001 * k;
     run.strain.push_back(strain);

@@ -17,7 +17,7 @@ using test::ScratchFolder;
 
 ExecuteOptions with_program() {
   ExecuteOptions options;
-  options.program = PENDULAR_PROGRAM;
+  options.worker = {PENDULAR_PROGRAM, {"sweep-run"}};
   return options;
 }
 
@@ -75,14 +75,14 @@ TEST(Execute, AProgramThatCannotDoItEndsTheLoop) {
   ScratchFolder folder;
   Store store(folder / "store");
   ExecuteOptions options;
-  options.program = folder / "absent";
+  options.worker = {folder / "absent"};
   EXPECT_THROW(execute(store, std::vector{tiny_request(1)}, options), ComputationFailed);
   options = with_program();  // which says nothing of the run
   EXPECT_EQ(execute(store, std::vector{tiny_request(1)}, options)[0].status, RunStatus::done);
 
   write_text(folder / "killed", "#!/bin/sh\necho out of luck >&2\nkill -9 $$\n");
   fs::permissions(folder / "killed", fs::perms::owner_all);
-  options.program = folder / "killed";
+  options.worker = {folder / "killed"};
   const auto outcomes = execute(store, std::vector{tiny_request(2)}, options);
   EXPECT_EQ(outcomes[0].status, RunStatus::failed);
   EXPECT_EQ(outcomes[0].exit_status, 137);

@@ -51,7 +51,7 @@ TEST(Film, WithoutFfmpegThePicturesAreThereAndAnOldFilmIsNot) {
   const test::ScratchFolder scratch;
   test::write_planted_run(scratch / "run", small());
   write_text(scratch / "film.mp4", "old");
-  const viz::RunFolder run = viz::read_run_folder(scratch / "run");
+  const RunFolder run = read_run_folder(scratch / "run");
   const viz::Frame first = viz::read_frame(run.frames.front()), last = viz::read_frame(run.frames.back());
   const viz::Display display;
   const std::string path = std::getenv("PATH");

@@ -1,7 +1,8 @@
-#include "viz/run_folder.h"
+#include "run_folder/run_folder.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 #include "base/error.h"
@@ -25,7 +26,7 @@ TEST(RunFolder, ReadsWhatWasPlanted) {
   const test::ScratchFolder scratch;
   const test::PlantedRun planted = small();
   test::write_planted_run(scratch.path(), planted);
-  const viz::RunFolder run = viz::read_run_folder(scratch.path());
+  const RunFolder run = read_run_folder(scratch.path());
   ASSERT_TRUE(run.result.band);
   EXPECT_NEAR(run.result.band->angle_to_axis(), planted.band_angle, 1e-12);
   EXPECT_NEAR((run.result.band->normal - planted.normal()).norm(), 0.0, 1e-12);
@@ -44,7 +45,7 @@ TEST(RunFolder, WhatAResultDoesNotSayIsEmpty) {
        {"{}", R"({"linear_modulus_pa": null, "fit": null, "peak": null, "linear_limit_strain": null,
                                     "shear_band": {"found": false, "normal": [0,0,1], "point_um": [0,0,0]}})"}) {
     write_text(scratch / "result.json", text);
-    const viz::RunResult result = viz::read_run_folder(scratch.path()).result;
+    const RunResult result = read_run_folder(scratch.path()).result;
     EXPECT_FALSE(result.modulus || result.linear_limit || result.peak_strain || result.band || result.beads)
         << text;
     viz::RenderSummary summary;
@@ -53,11 +54,60 @@ TEST(RunFolder, WhatAResultDoesNotSayIsEmpty) {
   }
 }
 
+TEST(RunFolder, EveryColumnOfACurveComesBackAndEmptyCellsWhereTheyMayBe) {
+  const test::ScratchFolder scratch;
+  std::vector<CurveRow> rows(2);
+  std::vector<double CurveRow::*> all;
+  double value = 1.0;
+  for (const auto& column : curve_columns()) {
+    all.push_back(column.field);
+    for (auto& row : rows) row.*column.field = value++;
+    if (column.may_be_empty) rows[1].*column.field = std::nan("");
+  }
+  write_curve(scratch / "curve.csv", rows, {});
+  const auto read = read_curve(scratch / "curve.csv", all);
+  ASSERT_EQ(read.size(), rows.size());
+  for (const auto& column : curve_columns()) {
+    EXPECT_EQ(read[0].*column.field, rows[0].*column.field) << column.name;
+    EXPECT_EQ(std::isnan(read[1].*column.field), column.may_be_empty) << column.name;
+  }
+  EXPECT_EQ(read_curve(scratch / "curve.csv", {&CurveRow::strain})[0].stress, 0.0);  // not asked for
+
+  rows[0].stress = std::nan("");
+  write_curve(scratch / "curve.csv", rows, {});
+  EXPECT_THROW(read_curve(scratch / "curve.csv", {&CurveRow::stress}), BadInput);
+}
+
+TEST(RunFolder, BaseOfAFrameComesBack) {
+  const test::ScratchFolder scratch;
+  RunFrame frame;
+  frame.strain = 0.02, frame.stress = 3e4, frame.platen_top = 1e-3, frame.specimen_diameter = 2e-3;
+  frame.ids = {7, 9};
+  frame.position = {Vec3(1e-4, 2e-4, 3e-4), Vec3(0.0, 0.0, 1e-4)};
+  frame.displacement = {Vec3(1e-6, 0.0, 0.0), Vec3(0.0, 0.0, 2e-6)};
+  frame.diameter = {2e-4, 2.1e-4};
+  frame.pairs = {{0, 1}};
+  frame.lines = {RunFrame::Line::broken};
+  write_polydata(scratch / "frame_0000.vtp", table_of(frame));
+  const RunFrame read = run_frame(read_polydata(scratch / "frame_0000.vtp"), "frame");
+  EXPECT_EQ(read.ids, frame.ids);
+  EXPECT_EQ(read.lines, frame.lines);
+  EXPECT_EQ(read.pairs, frame.pairs);
+  EXPECT_NEAR((read.position[0] - frame.position[0]).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((read.displacement[1] - frame.displacement[1]).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(read.diameter[1], frame.diameter[1], 1e-12);
+  EXPECT_NEAR(read.specimen_diameter, frame.specimen_diameter, 1e-12);
+  EXPECT_EQ(read.strain, frame.strain);
+  PolyTable without = table_of(frame);
+  without.number_fields.erase("strain");
+  EXPECT_THROW(run_frame(without, "frame"), BadInput);
+}
+
 TEST(RunFolder, RealisationsComeInOrder) {
   const test::ScratchFolder scratch;
   for (const char* name : {"realisation_10", "realisation_02", "realisation_01", "logs"})
     make_folder(scratch / name);
-  const auto found = viz::realisations(scratch.path());
+  const auto found = realisations(scratch.path());
   ASSERT_EQ(found.size(), 3u);
   EXPECT_EQ(found.front().filename(), "realisation_01");
   EXPECT_EQ(found.back().filename(), "realisation_10");

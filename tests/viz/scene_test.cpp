@@ -69,7 +69,7 @@ class Scene : public ::testing::Test {
     display_ = std::make_unique<viz::Display>();
     const fs::path folder = fs::temp_directory_path() / ("pendular.scene." + std::to_string(::getpid()));
     test::write_planted_run(folder, planted_);
-    run_ = viz::read_run_folder(folder);
+    run_ = read_run_folder(folder);
     first_ = viz::read_frame(run_.frames.front());
     last_ = viz::read_frame(run_.frames.back());
     stage_ = viz::make_stage(first_, last_, run_.result);
@@ -83,7 +83,7 @@ class Scene : public ::testing::Test {
 
   static inline std::unique_ptr<viz::Display> display_;
   static inline test::PlantedRun planted_;
-  static inline viz::RunFolder run_;
+  static inline RunFolder run_;
   static inline viz::Frame first_, last_;
   static inline viz::Stage stage_;
 };
@@ -228,7 +228,7 @@ TEST_F(Scene, PlotPutsThePeakWhereTheCurveIsHighest) {
 }
 
 TEST_F(Scene, PlotShowsBarsOnlyWhereBondsBroke) {
-  const auto bars = [&](const viz::RunFolder& run) {
+  const auto bars = [&](const RunFolder& run) {
     const Image image = viz::draw_stress_strain(*display_, std::span(&run, 1), kSize);
     int count = 0;
     for (int y = image.height / 2; y < image.height; ++y)
@@ -239,7 +239,7 @@ TEST_F(Scene, PlotShowsBarsOnlyWhereBondsBroke) {
     return count;
   };
   EXPECT_GT(bars(run_), 1000);
-  viz::RunFolder intact = run_;
+  RunFolder intact = run_;
   intact.break_strain.clear();
   EXPECT_EQ(bars(intact), 0);
 }

@@ -1,11 +1,9 @@
-#include "dem_core/run_folder.h"
+#include "dem_core/run_result.h"
 
 #include <nlohmann/json.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 
-#include "base/csv.h"
 #include "dem_core/observe/quasi_static.h"
 #include "kinematics/local_strain.h"
 #include "kinematics/shear_band.h"
@@ -103,45 +101,11 @@ nlohmann::ordered_json work_balance_json(const Simulation& simulation) {
 
 }  // namespace
 
-void write_curve(const fs::path& path, const std::vector<CurveRow>& rows, const Provenance& provenance) {
-  std::string text = to_comment(provenance);
-  text +=
-      "strain,stress_pa,stress_bottom_pa,broken_bonds,kinetic_energy_j,elastic_energy_j,platen_work_j,damped_"
-      "j,"
-      "slipped_j,released_by_breaking_j,bonds_per_bead,lateral_strain,inertial_number,unbalanced_force,"
-      "halted_j\n";
-  for (const auto& r : rows) {
-    const auto nine = [](double value) { return csv_cell(value, 9); };
-    const auto six = [](double value) { return csv_cell(value, 6); };
-    text +=
-        fmt::format("{},{},{},{:.0f},{},{},{},{},{},{},{},{},{},{},{}\n", nine(r.strain), nine(r.stress),
-                    nine(r.stress_bottom), r.broken_bonds, nine(r.kinetic), nine(r.elastic), nine(r.work),
-                    nine(r.damped), nine(r.slipped), nine(r.released), six(r.coordination),
-                    nine(r.lateral_strain), six(r.inertial_number), six(r.unbalanced_force), nine(r.halted));
-  }
-  write_text(path, text);
-}
-
-void write_events(const fs::path& path, const Simulation& simulation,
-                  const std::vector<std::int64_t>& bead_ids, const Provenance& provenance) {
-  std::string text =
-      to_comment(provenance) + "strain,bead_i,bead_j,x_um,y_um,z_um,mode,stretch_um,shear_um,energy_j\n";
+std::vector<BreakRow> break_rows(const Simulation& simulation, const std::vector<std::int64_t>& bead_ids) {
+  std::vector<BreakRow> rows;
   for (const auto& e : simulation.events)
-    text += fmt::format("{:.9g},{},{},{:.4f},{:.4f},{:.4f},{},{:.6g},{:.6g},{:.6g}\n", e.strain,
-                        bead_ids[e.i], bead_ids[e.j], kUm * e.place.x(), kUm * e.place.y(), kUm * e.place.z(),
-                        mode(e), kUm * e.stretch, kUm * e.shear, e.energy);
-  write_text(path, text);
-}
-
-void write_avalanches(const fs::path& path, const std::vector<Avalanche>& avalanches,
-                      const Provenance& provenance) {
-  std::string text =
-      to_comment(provenance) + "first_strain,last_strain,breaks,energy_j,x_um,y_um,z_um,extent_um\n";
-  for (const auto& a : avalanches)
-    text += fmt::format("{:.9g},{:.9g},{},{:.6g},{:.4f},{:.4f},{:.4f},{:.4f}\n", a.first_strain,
-                        a.last_strain, a.breaks, a.energy, kUm * a.centre.x(), kUm * a.centre.y(),
-                        kUm * a.centre.z(), kUm * a.extent);
-  write_text(path, text);
+    rows.push_back({e.strain, bead_ids[e.i], bead_ids[e.j], e.place, mode(e), e.stretch, e.shear, e.energy});
+  return rows;
 }
 
 nlohmann::ordered_json result_json(const RunState& state, const Sample& sample,
@@ -151,7 +115,7 @@ nlohmann::ordered_json result_json(const RunState& state, const Sample& sample,
   json["shear_band"] = shear_band_json(simulation, sample.beads.diameter);
   json["work_balance"] = work_balance_json(simulation);
   json["quasi_static"] = quasi_static_json(state.rows);
-  if (sample.compression.control == "relaxation")
+  if (sample.compression.control == Control::relaxation)
     json["relaxation"] = relaxation_json(state.rows, sample.compression);
   json["broken_bonds"] = simulation.events.size();
   json["beads"] = simulation.beads.size();

@@ -1,6 +1,6 @@
-#include "base/own_program.h"
+#include "cli/own_program.h"
 
-namespace pendular {
+namespace pendular::cli {
 
 fs::path own_program() {
   const fs::path self = "/proc/self/exe";  // holds also where its file has been replaced
@@ -8,4 +8,4 @@ fs::path own_program() {
   return name.filename() == "pendular-pictures" ? name.parent_path() / "pendular" : self;
 }
 
-}  // namespace pendular
+}  // namespace pendular::cli
