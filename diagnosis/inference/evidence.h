@@ -27,7 +27,7 @@ struct Hypothesis {
   double log_evidence = 0.0;
   double probability = 0.0;
   std::vector<Magnitude> magnitudes;  ///< one per effect
-  double misfit = 0.0;                ///< Mahalanobis distance squared of what the best magnitudes leave
+  double chi_squared = 0.0;           ///< at the best magnitudes
 };
 
 /// Which pairs are weighed: all, or those of which it is known what they do together.
