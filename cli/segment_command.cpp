@@ -143,8 +143,8 @@ void add_segment(CLI::App& app) {
   auto* command = add_picture_command(app, "segment");
   command
       ->add_option("volume", options->volume,
-                   "MetaImage, NRRD, multi-page TIFF, folder of TIFF, PNG or DICOM slices, GE phoenix .pcr "
-                   "or .vol, or raw data")
+                   "MetaImage, NRRD, multi-page TIFF, DICOM file, folder of TIFF, PNG or DICOM slices, GE "
+                   "phoenix .pcr or .vol, or raw data")
       ->required();
   add_common(*command, options->common, "Beads (beads.csv); a summary goes beside it as .json");
   command->add_option("--voxel-um", options->voxel_um, "Edge of a voxel, um; overrides the header's")
@@ -158,8 +158,9 @@ void add_segment(CLI::App& app) {
   command->add_option("--bridges", options->bridges,
                       "Look for polymer between near beads and write what is found (bridges.csv)");
   command
-      ->add_option("--false-discoveries", options->false_discoveries,
-                   "Largest expected share of wrong ones among bridges, and among pairs said to have none")
+      ->add_option(
+          "--false-discoveries", options->false_discoveries,
+          "Largest expected share of errors among pairs labelled bridge, and among those labelled none")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 0.5));
   command->add_flag("--calibrate-bridges", options->calibrate_bridges,

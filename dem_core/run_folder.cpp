@@ -1,7 +1,7 @@
 #include "dem_core/run_folder.h"
 
-#include <nlohmann/json.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 

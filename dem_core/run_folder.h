@@ -9,7 +9,7 @@
 
 namespace pendular {
 
-/// The files of a run folder (contract, "Tables"); each is written whole or not at all.
+/// The files of a run folder (docs/formats.md); each is written whole or not at all.
 
 /// curve.csv: strain,stress_pa,stress_bottom_pa,broken_bonds,kinetic_energy_j,…; a cell is empty where there
 /// is no such number, as of the inertial number without stress.
