@@ -34,43 +34,31 @@ std::set<std::string> arrays_of(const fs::path& path) {
   return names;
 }
 
-/// Every file of a small chain, made once.
-struct Formats : ::testing::Test {
-  static void SetUpTestSuite() {
-    folder_ = new test::ScratchFolder;
-    const auto step = [](const std::string& command) {
-      const auto outcome = shell(folder_->path(), command);
-      ASSERT_EQ(outcome.status, 0) << command << ": " << outcome.errors;
-    };
-    write_text(file("s.toml"), test::sample_file("[specimen]\ndiameter_um = 1100\nheight_um = 1100\n"
-                                                 "volume_fraction = 0.55\n[phantom]\nvoxel_um = 10\n"
-                                                 "wall_thickness_um = 60\nmargin_um = 80\n"
-                                                 "[compression]\nmax_strain = 0.02\nframes = 2\n"
-                                                 "[bridges]\nnormal_stiffness_n_per_m = 5760\n"
-                                                 "tangential_stiffness_n_per_m = 325\n"));
-    step("$P phantom s.toml -o v.mha --truth truth.vtp");
-    step("$P segment v.mha -o beads.csv --bridges bridges.csv");
-    step("$P pack beads.csv --sample s.toml -o packing.vtp");
-    step("$P compress packing.vtp --sample s.toml -o run");
-    step("$P modulus packing.vtp --sample s.toml --strain 0.005 -o modulus.json");
-    step("$P bridge --d-um 70 -o bridge.csv");
-    step("$P track beads.csv beads.csv -o track.csv");
-    write_text(file("sweep.toml"), "[sweep]\nsample = \"s.toml\"\npacking = \"packing.vtp\"\n"
-                                   "[grid]\n\"contact.friction\" = [0.5]\n");
-    step("$P sweep sweep.toml -o sweep");
+constexpr const char* kSample =
+    "[bridges]\nnormal_stiffness_n_per_m = 5760\ntangential_stiffness_n_per_m = 325\n"
+    "[specimen]\ndiameter_um = 1100\nheight_um = 1100\nvolume_fraction = 0.55\n"
+    "[phantom]\nvoxel_um = 10\nwall_thickness_um = 60\nmargin_um = 80\n"
+    "[compression]\nmax_strain = 0.02\nframes = 2\n";
+
+constexpr const char* kSweep =
+    "[sweep]\nsample = \"s.toml\"\npacking = \"packing.vtp\"\n[grid]\n\"contact.friction\" = [0.5]\n";
+
+/// Every file of a small chain.
+void make_files(const test::ScratchFolder& folder) {
+  write_text(folder / "s.toml", test::sample_file(kSample));
+  write_text(folder / "sweep.toml", kSweep);
+  for (const char* command :
+       {"phantom s.toml -o v.mha --truth truth.vtp", "segment v.mha -o beads.csv --bridges bridges.csv",
+        "pack beads.csv --sample s.toml -o packing.vtp", "compress packing.vtp --sample s.toml -o run",
+        "modulus packing.vtp --sample s.toml --strain 0.005 -o modulus.json",
+        "bridge --d-um 70 -o bridge.csv", "track beads.csv beads.csv -o track.csv",
+        "sweep sweep.toml -o sweep"}) {
+    const auto outcome = shell(folder.path(), std::string("$P ") + command);
+    ASSERT_EQ(outcome.status, 0) << command << ": " << outcome.errors;
   }
-  static void TearDownTestSuite() {
-    delete folder_;
-    folder_ = nullptr;
-  }
-  static fs::path file(const std::string& name) { return *folder_ / name; }
+}
 
-  static test::ScratchFolder* folder_;
-};
-
-test::ScratchFolder* Formats::folder_ = nullptr;
-
-TEST_F(Formats, TablesHaveTheColumnsOfThePageInItsOrder) {
+void expect_tables_have_the_columns_of_the_page(const test::ScratchFolder& folder) {
   for (const auto& [path, heading] : {std::pair{"beads.csv", "`beads.csv`"},
                                       {"bridges.csv", "`bridges.csv`"},
                                       {"track.csv", "`track.csv`"},
@@ -78,23 +66,15 @@ TEST_F(Formats, TablesHaveTheColumnsOfThePageInItsOrder) {
                                       {"run/events.csv", "`events.csv`"},
                                       {"run/avalanches.csv", "`avalanches.csv`"},
                                       {"bridge.csv", "`bridge` table"}})
-    EXPECT_EQ(columns_of(file(path)), documented(heading)) << path;
+    EXPECT_EQ(columns_of(folder / path), documented(heading)) << path;
   auto results = documented("`results.csv`");
   results.insert(results.begin() + 1, "contact.friction");
-  EXPECT_EQ(columns_of(file("sweep/results.csv")), results);
+  EXPECT_EQ(columns_of(folder / "sweep/results.csv"), results);
 }
 
-TEST_F(Formats, SummariesHaveNoKeyThatThePageDoesNotName) {
-  expect_documented_keys(file("beads.json"), "`beads.json`");
-  expect_documented_keys(file("track.json"), "`track.json`");
-  expect_documented_keys(file("packing.json"), "`packing.json`");
-  expect_documented_keys(file("run/result.json"), "`result.json`");
-  expect_documented_keys(file("modulus.json"), "`modulus.json`");
-}
-
-TEST_F(Formats, KeysOfResultsThatThePageNamesAreThere) {
+void expect_keys_of_the_page_are_there(const test::ScratchFolder& folder) {
   std::set<std::string> keys;
-  test::add_keys(nlohmann::json::parse(read_text(file("run/result.json"))), "", keys);
+  test::add_keys(nlohmann::json::parse(read_text(folder / "run/result.json")), "", keys);
   for (const auto& name : documented("`result.json`")) {
     if (name == "relaxation") continue;  // of another control
     EXPECT_TRUE(
@@ -103,15 +83,28 @@ TEST_F(Formats, KeysOfResultsThatThePageNamesAreThere) {
   }
 }
 
-TEST_F(Formats, GeometryHasTheArraysOfThePage) {
-  EXPECT_EQ(arrays_of(file("packing.vtp")), as_set(documented("`packing.vtp`")));
+void expect_arrays_of_the_page(const test::ScratchFolder& folder) {
+  EXPECT_EQ(arrays_of(folder / "packing.vtp"), as_set(documented("`packing.vtp`")));
   std::vector<fs::path> frames;
-  for (const auto& entry : fs::directory_iterator(file("run/frames"))) frames.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(folder / "run/frames")) frames.push_back(entry.path());
   ASSERT_FALSE(frames.empty());
   EXPECT_EQ(arrays_of(frames.front()), as_set(documented("`frames/*.vtp`")));
 }
 
-TEST_F(Formats, EveryColumnAndKeyOfAKindIsDefined) {
+TEST(Formats, FilesOfAChainAreAsThePageSays) {
+  const test::ScratchFolder folder;
+  ASSERT_NO_FATAL_FAILURE(make_files(folder));
+  expect_tables_have_the_columns_of_the_page(folder);
+  expect_documented_keys(folder / "beads.json", "`beads.json`");
+  expect_documented_keys(folder / "track.json", "`track.json`");
+  expect_documented_keys(folder / "packing.json", "`packing.json`");
+  expect_documented_keys(folder / "run/result.json", "`result.json`");
+  expect_documented_keys(folder / "modulus.json", "`modulus.json`");
+  expect_keys_of_the_page_are_there(folder);
+  expect_arrays_of_the_page(folder);
+}
+
+TEST(Formats, EveryColumnAndKeyOfAKindIsDefined) {
   const auto columns = as_set(documented("Columns of observations")), keys = as_set(documented("Own keys"));
   std::set<std::string> known;
   for (const auto* kind : diagnosis::all_kinds()) {
@@ -125,7 +118,7 @@ TEST_F(Formats, EveryColumnAndKeyOfAKindIsDefined) {
   for (const auto& name : columns) EXPECT_TRUE(known.contains(name)) << name << " is of no kind";
 }
 
-TEST_F(Formats, EveryKeyOfASampleHasAMeaning) {
+TEST(Formats, EveryKeyOfASampleHasAMeaning) {
   std::set<std::string> told;
   for (const auto& key : sample_reference()) {
     EXPECT_FALSE(key.meaning.empty()) << key.name;
