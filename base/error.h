@@ -9,7 +9,7 @@
 namespace pendular {
 
 /// Errors that end the program. What a user reads is one line: where, what was found, what was expected.
-/// The exit status belongs to the kind of error (contract: 2 usage, 3 input, 4 computation, 130 interrupted).
+/// The exit status belongs to the kind of error (2 usage, 3 input, 4 computation, 130 interrupted).
 class Error : public std::runtime_error {
  public:
   Error(int exit_status, const std::string& message)

@@ -14,7 +14,7 @@
 
 namespace pendular {
 
-/// What an experimenter believes about a specimen and its test; one TOML file (contract, "Sample file").
+/// What an experimenter believes about a specimen and its test; one TOML file (docs/sample.md).
 /// All values in SI here; the file's keys carry their own units and are listed with ranges and meaning
 /// in sample_keys(). Defaults are sample A of Hemmerle et al. 2021, Table 1.
 struct Sample {

@@ -1,7 +1,7 @@
 #include "blind/scans.h"
 
-#include <nlohmann/json.hpp>
 #include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

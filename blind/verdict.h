@@ -86,7 +86,7 @@ std::vector<Truth> open_seals(const fs::path& folder);
 /// The truth of one case; BadInput for what is none.
 Truth read_truth(const fs::path& sealed);
 
-/// What REPORTS/NAME/diagnosis.json says; BadInput for what has not the contract's keys.
+/// What REPORTS/NAME/diagnosis.json says; BadInput where a key of docs/diagnose.md is missing.
 Diagnosed read_diagnosis(const fs::path& path);
 
 /// Truths beside the reports. Where the true effects were left out only cases that have some count.

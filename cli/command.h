@@ -56,5 +56,7 @@ void add_sweep_run(CLI::App& app);   // the process of one run; not for users
 void add_blind_case(CLI::App& app);  // the process of one case; not for users
 void add_pipette(CLI::App& app);
 void add_track(CLI::App& app);
+void add_doctor(CLI::App& app);
+void add_formats(CLI::App& app);  // what the program knows of its files; for scripts/formats-docs
 
 }  // namespace pendular::cli

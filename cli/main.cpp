@@ -24,8 +24,10 @@ void add_commands(CLI::App& app) {
   add_picture_command(app, "reproduce");
   add_picture_command(app, "diagnose");
   add_blind(app);
+  add_doctor(app);
   add_sweep_run(app);
   add_blind_case(app);
+  add_formats(app);
 }
 
 namespace {

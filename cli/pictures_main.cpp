@@ -20,8 +20,10 @@ void add_commands(CLI::App& app) {
   add_reproduce(app);
   add_diagnose(app);
   add_blind(app);
+  add_doctor(app);
   add_sweep_run(app);
   add_blind_case(app);
+  add_formats(app);
 }
 
 }  // namespace pendular::cli

@@ -1,6 +1,7 @@
 #include "cli/program.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -14,6 +15,16 @@
 
 namespace pendular::cli {
 namespace {
+
+constexpr const char* kChain =
+    R"(pendular segment scan.mha --voxel-um 5 -o beads.csv         a tomogram to beads (and bridges)
+pendular pack beads.csv --sample s.toml -o packing.vtp      beads to a packing with its statistics
+pendular compress packing.vtp --sample s.toml -o run/       uniaxial compression by discrete elements
+pendular render run/ -o pictures/                           shear band, stress-strain curve, film
+pendular diagnose experiment.toml -o report/                why simulation and experiment differ
+
+All of it on a phantom: pendular demo. Commands: pendular --help. Optional parts: pendular doctor.
+)";
 
 CLI::App new_app() {
   return CLI::App("From a tomogram of bonded beads to its stiffness, its failure, and the reason why.",
@@ -62,6 +73,10 @@ void run_command_line(const std::vector<std::string>& words) {
 }
 
 int run_program(const std::vector<std::string>& words) {
+  if (words.empty()) {
+    fmt::print("{}", kChain);
+    return printed();
+  }
   CLI::App app = new_app();
   prepare(app);
   try {

@@ -155,8 +155,9 @@ void add_segment(CLI::App& app) {
   command->add_option("--bridges", options->bridges,
                       "Look for polymer between near beads and write what is found (bridges.csv)");
   command
-      ->add_option("--false-discoveries", options->false_discoveries,
-                   "Largest expected share of wrong ones among bridges, and among pairs said to have none")
+      ->add_option(
+          "--false-discoveries", options->false_discoveries,
+          "Largest expected share of errors among pairs labelled bridge, and among those labelled none")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 0.5));
   command->add_flag("--calibrate-bridges", options->calibrate_bridges,

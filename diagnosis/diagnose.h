@@ -9,7 +9,7 @@ namespace pendular::diagnosis {
 /// What is run beside the bank.
 struct Scope {
   bool fresh_runs = true;  ///< without, nothing is said of how far the gap shrinks
-  bool plan = false;       ///< runs of conditions that the bank lacks, to reckon further measurements
+  bool plan = false;       ///< runs of conditions that the bank lacks, to assess further measurements
 };
 
 /// Where an experiment and its simulation part, which effect causes it, how far it shrinks once that is

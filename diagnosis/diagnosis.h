@@ -24,7 +24,7 @@ struct Explanation {
   double probability = 0.0;
   std::vector<Magnitude> magnitudes;  ///< one per effect
   std::vector<std::string> units;     ///< likewise
-  double misfit = 0.0;                ///< distance squared that its best magnitudes leave, over the features
+  double reduced_chi_squared = 0.0;   ///< at its best magnitudes, χ² over the number of features
   bool excluded = false;
   std::string reason = {};  ///< why it is excluded or cannot be told; empty: nothing to say
 };
@@ -66,7 +66,7 @@ struct NextExperiment {
   double cost = 1.0;     ///< in units of one compression test
   Outlook outlook = {};  ///< once it is made; without cases where runs are missing
   double gain = 0.0;     ///< entropy that it takes off, bits
-  std::size_t runs = 0;  ///< simulations that are missing to reckon it, or failed
+  std::size_t runs = 0;  ///< simulations that it still lacks, or that failed
 };
 
 /// What could be measured next.
@@ -100,10 +100,10 @@ struct Diagnosis {
   std::vector<Explanation> explanations;   ///< most probable first; every effect, none, unknown; pairs
   std::vector<std::string> ambiguity_set;  ///< explanations that cannot be told apart here, best one first
   double set_probability = 0.0;
-  std::string nearest_signature;  ///< what naming by the least misfit would say: an effect, or "none"
-  Promise promise;                ///< how far all this holds, from the replay
-  std::vector<Unseen> unseen;     ///< effects that the replay hardly shows and that are not in the set
-  double goodness = 1.0;  ///< of the best explanation: probability of a misfit as large by noise alone
+  std::string nearest_signature;     ///< the single effect of least χ², or "none"
+  Promise promise;                   ///< how far all this holds, from the replay
+  std::vector<Unseen> unseen;        ///< effects that the replay hardly shows and that are not in the set
+  double p_value = 1.0;              ///< of the best explanation's χ² under noise alone
   std::vector<std::string> effects;  ///< rows of `signatures` and `separation`
   Eigen::MatrixXd signatures;        ///< effect × feature at the effect's scale, over the feature's noise
   Eigen::MatrixXd separation;        ///< isolability(), effects × (effects + 1)

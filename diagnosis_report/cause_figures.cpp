@@ -232,23 +232,22 @@ std::optional<Drawn> pull_figure(const viz::Display& display, const Diagnosis& d
 std::optional<Drawn> goodness_figure(const viz::Display& display, const Diagnosis& d) {
   const Shown shown = shown_of(d);
   viz::RowPlot plot;
-  RowSeries misfit;
+  RowSeries chi_squared;
   Table table{"goodness", {"id", "misfit"}, {}};
   for (const auto& e : shown.explanations) {
-    if (e.id == "unknown" || !(e.misfit > 0.0)) continue;  // zero: it was not simulated
+    if (e.id == "unknown" || !(e.reduced_chi_squared > 0.0)) continue;  // zero: it was not simulated
     plot.labels.push_back(diagnosis::plain_name(e.id));
     plot.marked.push_back(in_ambiguity_set(d, e.id));
-    misfit.values.push_back(e.misfit);
-    table.rows.push_back({e.id, e.misfit});
+    chi_squared.values.push_back(e.reduced_chi_squared);
+    table.rows.push_back({e.id, e.reduced_chi_squared});
   }
   if (plot.labels.empty()) return {};
-  plot.panels = {{"misfit that remains", {misfit}, {1.0}}};
+  plot.panels = {{"reduced chi-squared", {chi_squared}, {1.0}}};
   return Drawn{
       viz::draw_rows(display, plot),
-      fmt::format("Goodness of fit: squared distance over the number of features that each explanation "
-                  "leaves at its best magnitude; noise alone leaves about one (dashed). Of the best "
-                  "explanation, noise alone leaves as much with probability {}.",
-                  rounded(d.goodness)),
+      fmt::format("Goodness of fit: χ² over the number of features, of each explanation at its best "
+                  "magnitude; noise alone gives about one (dashed). The best explanation's p-value is {}.",
+                  rounded(d.p_value)),
       table};
 }
 

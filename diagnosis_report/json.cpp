@@ -66,7 +66,7 @@ ordered_json to_json(const diagnosis::Explanation& explanation) {
           {"magnitudes", magnitudes},
           {"intervals_90", intervals},
           {"units", explanation.units},
-          {"misfit", number(explanation.misfit)},
+          {"misfit", number(explanation.reduced_chi_squared)},
           {"excluded", explanation.excluded},
           {"reason", explanation.reason}};
 }
@@ -247,7 +247,7 @@ ordered_json to_json(const Diagnosis& d) {
   json["promise"] = promise_of(d);
   json["unseen"] = unseen_of(d);
   json["nearest_signature"] = d.nearest_signature;
-  json["goodness"] = number(d.goodness);
+  json["goodness"] = number(d.p_value);
   json["shrinkage"] = shrinkage_of(d);
   json["outlook"] = d.next.now.cases > 0 ? to_json(d.next.now) : ordered_json();
   json["next_experiments"] = to_json(d.next);

@@ -6,7 +6,7 @@
 
 namespace pendular::diagnosis_report {
 
-/// The content of diagnosis.json (contract, "Report folder"; docs/diagnose.md). What is not known, or no
+/// The content of diagnosis.json (docs/diagnose.md). What is not known, or no
 /// finite number, is null.
 nlohmann::ordered_json to_json(const diagnosis::Diagnosis& diagnosis);
 

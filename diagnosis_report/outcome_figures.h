@@ -12,7 +12,7 @@ namespace pendular::diagnosis_report {
 /// made.
 std::optional<Drawn> shrinkage_figure(const viz::Display& display, const diagnosis::Diagnosis& diagnosis);
 
-/// Further measurements, what they are expected to leave, and their cost. Nothing where none is reckoned.
+/// Further measurements, what they are expected to leave, and their cost. Nothing where none is assessed.
 std::optional<Drawn> next_figure(const viz::Display& display, const diagnosis::NextSteps& steps);
 
 }  // namespace pendular::diagnosis_report

@@ -36,7 +36,7 @@ std::vector<viz::ReportRow> figures_of(const Diagnosis& d) {
       {"Features that differ significantly", fmt::format("{} of {}", significant, d.gap.rows.size()), ""});
   rows.push_back({"Gap beyond the noise, over the noise", rounded(d.gap.excess), ""});
   rows.push_back({"Noise of what is compared by ratio, median", percent(d.gap.noise_floor), ""});
-  rows.push_back({"Noise alone leaves such a misfit with probability", percent(d.goodness), ""});
+  rows.push_back({"p-value of the best explanation", percent(d.p_value), ""});
   rows.push_back({"Simulated tests", std::to_string(d.ledger.size()), ""});
   if (not_made(d) > 0) rows.push_back({"of which failed or not made", std::to_string(not_made(d)), ""});
   return rows;

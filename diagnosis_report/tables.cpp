@@ -43,7 +43,7 @@ std::vector<Cell> hypothesis_row(const Diagnosis& d, const diagnosis::Explanatio
     row.emplace_back(there ? e.magnitudes[k].interval_90.second : kNone);
     row.emplace_back(k < e.units.size() ? e.units[k] : "");
   }
-  row.emplace_back(e.misfit);
+  row.emplace_back(e.reduced_chi_squared);
   row.emplace_back(yes(in_ambiguity_set(d, e.id)));
   row.emplace_back(yes(e.excluded));
   row.emplace_back(e.reason);

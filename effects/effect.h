@@ -48,7 +48,7 @@ struct ActualSpecimen {
   std::vector<BridgeBody> believed_bodies, bodies;
 };
 
-/// By what strain and stress are reckoned from travel and force.
+/// What turns travel and force into strain and stress.
 struct Gauge {
   double section, height;  ///< of the specimen before its test, m², m
 };

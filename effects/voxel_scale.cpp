@@ -38,7 +38,7 @@ void rows(std::vector<CurveRow>& rows, const Gauge&, double theta) {
 
 /// The paper's lengths rest on the tomogram's voxel size. Where that is too large by the share θ, so are all
 /// lengths measured with it: centres, diameters, gaps, and the specimen's height and section by which strain
-/// and stress are reckoned. Force, platen travel and what is stated of the bridges are true. E stays with
+/// and stress are computed. Force, platen travel and what is stated of the bridges are true. E stays with
 /// stated bond stiffness: longer and wider by the same share. What it does to the peak has not been
 /// measured.
 Effect voxel_scale() {

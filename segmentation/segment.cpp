@@ -70,20 +70,21 @@ void add_warnings(Segmentation& result) {
   std::vector<double> qualities;
   for (const Bead& bead : result.beads) qualities.push_back(bead.quality);
   if (median(qualities) < 0.5)
-    result.warnings.push_back("most of what was found is no ball: diameters and errors mean little");
+    result.warnings.push_back("most objects are not spherical: diameters and errors mean little");
   if (result.grains.size() > result.beads.size())
-    result.warnings.push_back(fmt::format(
-        "{} bodies have no ball's edge, against {} beads: irregular grains, or the other tone (--beads)?",
-        result.grains.size(), result.beads.size()));
-  else if (!result.grains.empty())
     result.warnings.push_back(
-        fmt::format("{} bodies have no ball's edge and are not in the table: broken beads, or something else",
-                    result.grains.size()));
+        fmt::format("{} objects rejected (boundary not spherical) against {} beads: irregular grains, or the "
+                    "other polarity (--beads)?",
+                    result.grains.size(), result.beads.size()));
+  else if (!result.grains.empty())
+    result.warnings.push_back(fmt::format(
+        "{} objects rejected, not in the table (boundary not spherical): broken beads, or other bodies",
+        result.grains.size()));
   if (result.measured && !result.measured->polymer_seen)
     result.warnings.push_back(
-        "no polymer can be told from what surrounds the beads: every bridge is undetermined");
+        "polymer cannot be distinguished from its surroundings: every bridge is undetermined");
   if (!result.specimen)
-    result.warnings.push_back("no container seen: porosity is of the whole picture, walls are not known");
+    result.warnings.push_back("no container found: porosity is that of the whole image, walls are not known");
 }
 
 /// The container's inside; where the beads end free, up to the outermost bead.
@@ -131,15 +132,15 @@ BeadSearch search_with(const Volume& volume, const SegmentOptions& options) {
                       [&](const BeadSearch& tried) { return ball_share(volume, tried, options.cutoff); });
 }
 
-Segmentation taken_apart(const Volume& volume, const BeadSearch& search, const SegmentOptions& options,
-                         const std::vector<std::string>& doubts) {
+Segmentation segmented(const Volume& volume, const BeadSearch& search, const SegmentOptions& options,
+                       const std::vector<std::string>& doubts) {
   Segmentation result;
   result.warnings = doubts;
   FittedBeads fitted = fit_beads(volume, search, options.cutoff);
   if (fitted.fits.empty())
     bad_input(
-        "no beads found: {} bodies looked at in a volume of {} x {} x {} voxels, none with the edge of a "
-        "ball{}{}",
+        "no beads found: {} bodies in a volume of {} x {} x {} voxels, none with a spherical "
+        "boundary{}{}",
         search.seeds.size(), volume.size[0], volume.size[1], volume.size[2],
         result.warnings.empty() ? "" : "; ", fmt::join(result.warnings, "; "));
   sort_fits(fitted.fits);
@@ -175,11 +176,11 @@ Segmentation segment(const Volume& volume, const SegmentOptions& options) {
                 volume.size[1], volume.size[2]);
   const BeadSearch search = search_with(volume, options);
   const auto doubts = doubts_about(volume, search.histogram);
-  if (!may_refine(volume) || !looks_like_balls(search) || typical_radius(search.seeds) > least_radius)
-    return taken_apart(volume, search, options, doubts);
+  if (!may_refine(volume) || !mostly_spherical(search) || typical_radius(search.seeds) > least_radius)
+    return segmented(volume, search, options, doubts);
   Volume finer = resampled(volume, {2.0, 2.0, 2.0});
   finer.spacing *= 0.5;
-  return taken_apart(finer, search_with(finer, options), options, doubts);
+  return segmented(finer, search_with(finer, options), options, doubts);
 }
 
 }  // namespace pendular

@@ -2,9 +2,9 @@
 
 #include "volume/image_io.h"
 
-#include <nlohmann/json.hpp>
 #include <itkMetaImageIO.h>
 #include <itkTIFFImageIO.h>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 

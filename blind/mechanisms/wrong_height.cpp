@@ -9,7 +9,7 @@ void divide(std::vector<CurveRow>& rows, const Simulation&, double theta) {
 
 }  // namespace
 
-/// Strain was reckoned over a height that holds the fixtures too: it is too small by the share θ. Raises E,
+/// Strain was computed over a height that holds the fixtures too: it is too small by the share θ. Raises E,
 /// makes all strains smaller.
 Mechanism wrong_height() {
   return {.id = "wrong_height",

@@ -76,11 +76,11 @@ std::vector<Group> groups_of(const std::vector<DesignRun>& runs, const Responses
 }
 
 /// Mean products of rows, over those that are finite in both columns.
-Eigen::MatrixXd pairwise(const Eigen::MatrixXd& rows, double freedom_lost) {
+Eigen::MatrixXd pairwise(const Eigen::MatrixXd& rows, double dof_lost) {
   const Eigen::MatrixXd shown = rows.array().isFinite().cast<double>();
   const Eigen::MatrixXd values = rows.array().isFinite().select(rows, 0.0);
   const Eigen::MatrixXd counts = shown.transpose() * shown;
-  return (values.transpose() * values).array() / (counts.array() - freedom_lost).max(1.0);
+  return (values.transpose() * values).array() / (counts.array() - dof_lost).max(1.0);
 }
 
 /// Residuals of a fit: over the square root of the room that the fit leaves each, so that they have the
@@ -174,7 +174,7 @@ void set_draws(const Group& group, Eigen::MatrixXd& missed, const Eigen::MatrixX
   const double scattered = growth(group, missed);
   response.drawn_at = group.scale();
   response.draws = positive_part(pairwise(missed, 0.0) - scattered * scatter);
-  response.drawn_freedom = std::max(2.0, static_cast<double>(group.theta.size()) - group.degree());
+  response.drawn_dof = std::max(2.0, static_cast<double>(group.theta.size()) - group.degree());
   std::vector<Eigen::Index> complete;
   for (Eigen::Index r = 0; r < missed.rows(); ++r)
     if (missed.row(r).allFinite()) complete.push_back(r);
@@ -224,7 +224,7 @@ Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index feature
     parameters += groups[g].degree();
   }
   Eigen::MatrixXd all = stacked(scatter, features);
-  responses.freedom = std::max(1.0, static_cast<double>(all.rows()) - parameters);
+  responses.dof = std::max(1.0, static_cast<double>(all.rows()) - parameters);
   draw_in_outliers(all);
   responses.within = pairwise(all, 0.0);
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -244,8 +244,8 @@ Scatter scatter_of(const Responses& responses) {
   const Eigen::VectorXd diagonal = scatter.covariance.diagonal().cwiseMax(1e-12);
   scatter.covariance.diagonal() = diagonal;
   const double share = between.diagonal().cwiseQuotient(diagonal).mean();
-  scatter.freedom = 1.0 / (share * share / std::max(1.0, members - 1.0) +
-                           (1.0 - share) * (1.0 - share) / std::max(1.0, responses.freedom));
+  scatter.dof = 1.0 / (share * share / std::max(1.0, members - 1.0) +
+                       (1.0 - share) * (1.0 - share) / std::max(1.0, responses.dof));
   return scatter;
 }
 

@@ -28,7 +28,7 @@ struct Responses {
   Eigen::VectorXd mean;               ///< of the members
   std::vector<Signature> signatures;  ///< of each id in the order of its first run; range and scale unset
   Eigen::MatrixXd within, between;    ///< covariance of the scatter about the fit, and of the members
-  double freedom = 0.0;               ///< of the scatter
+  double dof = 0.0;                   ///< of the scatter
 
   const Signature* find(const std::string& id) const;
   /// Of one sign of an id, or of both.
@@ -47,7 +47,7 @@ Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index feature
 /// pretend to know correlations. Degrees of freedom by Welch and Satterthwaite.
 struct Scatter {
   Eigen::MatrixXd covariance;
-  double freedom = 0.0;
+  double dof = 0.0;
 };
 Scatter scatter_of(const Responses& responses);
 

@@ -15,8 +15,8 @@ struct Response {
   Eigen::MatrixXd draws = {};  ///< covariance by which runs of it are missed, at drawn_at; empty: none
   double drawn_at = 1.0;       ///< θ of that covariance, which grows with θ²
   Eigen::MatrixXd missed =
-      {};  ///< by how much runs were missed, left out, at drawn_at: a row each that shows all
-  double drawn_freedom = 0.0;  ///< degrees of freedom of draws; 0: known
+      {};                  ///< by how much runs were missed, left out, at drawn_at: a row each that shows all
+  double drawn_dof = 0.0;  ///< degrees of freedom of draws; 0: known
   double drawn_outside = 0.0;  ///< trace of draws outside the span of all responses, of a reduced response
 
   Eigen::VectorXd at(double theta) const {
@@ -52,8 +52,8 @@ struct Together {
 struct Gap {
   Eigen::VectorXd values;  ///< observed less simulated
   Eigen::MatrixXd
-      covariance;        ///< of what is neither effect nor believed input: ensemble, measurement, specimen
-  double freedom = 0.0;  ///< degrees of freedom of that covariance where it was estimated; 0: known
+      covariance;    ///< of what is neither effect nor believed input: ensemble, measurement, specimen
+  double dof = 0.0;  ///< degrees of freedom of that covariance where it was estimated; 0: known
   /// What runs without an effect leave outside the span of all responses, squared, in units of the noise.
   std::vector<double> outside = {};
   Eigen::MatrixXd believed;  ///< what one standard deviation of each believed input does: a column each

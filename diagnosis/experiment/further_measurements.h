@@ -21,7 +21,7 @@ struct FurtherMeasurement {
       {};  ///< of one that is not of a specimen: effects that it finds or rules out
 };
 
-/// Every measurement that is reckoned with. Tests go as far as the farthest of the experiment.
+/// Every measurement that is considered. Tests go as far as the farthest of the experiment.
 std::vector<FurtherMeasurement> further_measurements();
 
 /// One compression test, planned, of a specimen whose beads were scanned at rest; they are made up from the

@@ -134,7 +134,7 @@ class Learner {
     }
     if (observed.level == Level::readings) found_.gap.covariance.diagonal() *= 1.0 + kApart;
     // Welch and Satterthwaite: only the ensemble's part of the noise was estimated.
-    found_.gap.freedom = scatter.freedom / std::max(1e-6, share * share);
+    found_.gap.dof = scatter.dof / std::max(1e-6, share * share);
   }
 
   /// What the runs themselves have outside the span of the responses: those without an effect as it is, the
@@ -198,7 +198,7 @@ Gap part_of(const Gap& gap, const std::vector<std::size_t>& features) {
   part.values = gap.values(rows);
   part.covariance = gap.covariance(rows, rows);
   part.believed = gap.believed(rows, Eigen::all);
-  part.freedom = gap.freedom;
+  part.dof = gap.dof;
   return part;
 }
 

@@ -18,7 +18,8 @@ Weighed none(const ReducedSpace& space, const ReducedGap& gap) {
   const Prediction nothing = space.predict(Eigen::VectorXd::Zero(size),
                                            {Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)});
   const Fit fit = space.fit(gap, nothing);
-  return {{"none", fit.log_likelihood, 0.0, {}, fit.misfit}, beside_unknown(space, gap, nothing, fit.misfit)};
+  return {{"none", fit.log_likelihood, 0.0, {}, fit.chi_squared},
+          beside_unknown(space, gap, nothing, fit.chi_squared)};
 }
 
 /// Something beside what is known, or, by chance, something that does what a known effect would.
@@ -32,12 +33,12 @@ Hypothesis unknown(const std::vector<Weighed>& known, double like_known) {
     return log_sum(terms) - std::log(static_cast<double>(terms.size()));
   };
   const double other = mean(beside);
-  if (like.empty()) return {"unknown", other, 0.0, {}, known.front().hypothesis.misfit};
+  if (like.empty()) return {"unknown", other, 0.0, {}, known.front().hypothesis.chi_squared};
   return {"unknown",
           log_sum({other + std::log(1.0 - like_known), mean(like) + std::log(like_known)}),
           0.0,
           {},
-          known.front().hypothesis.misfit};
+          known.front().hypothesis.chi_squared};
 }
 
 /// Evidences times priors, made to sum to one; most probable first.

@@ -27,7 +27,7 @@ struct Hypothesis {
   double log_evidence = 0.0;
   double probability = 0.0;
   std::vector<Magnitude> magnitudes;  ///< one per effect
-  double misfit = 0.0;                ///< Mahalanobis distance squared of what the best magnitudes leave
+  double chi_squared = 0.0;           ///< at the best magnitudes
 };
 
 /// Which pairs are weighed: all, or those of which it is known what they do together.
@@ -42,7 +42,7 @@ enum class Pairs { all, run };
 /// are integrated over on a grid, finer about its peak; a priori all in the signature's range are alike,
 /// those below its least one aside. A response is known to a share of itself (Signature::error) and to
 /// Response::draws, at 0.4 to 2.5 times its standard deviations, and two responses are taken to add to 0.15
-/// of their geometric mean; to half of that where they were run together.
+/// of their geometric mean, to 0.07 of it where they were run together.
 ///
 /// `unknown` is something beside what is known: none or a single effect leaves a residual 1.5, 2.5, 4 or 7
 /// times as large as noise does, within the span, outside it, or both; or (Priors::like_known) something that

@@ -16,7 +16,7 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr int kToys = 4000;
+constexpr int kReplicas = 4000;
 constexpr double kWithPairs = 10.0;  // an effect may have so many times more in pairs and still be excluded
 
 Eigen::MatrixXd whole_covariance(const Gap& gap) {
@@ -47,30 +47,30 @@ std::string worst_of(const Comparison& landmarks, const Eigen::VectorXd& left) {
   return fmt::format("{} is {:.1f} sigma off", in_words(feature), most);
 }
 
-/// Probability of a misfit at least as large by noise alone: that of the multivariate t.
-double goodness_of(double misfit, Eigen::Index features, double freedom) {
+/// p-value of a χ² under noise alone: the multivariate t, by Monte Carlo.
+double p_value_of(double chi_squared, Eigen::Index features, double dof) {
   int larger = 0;
-  for (std::uint64_t toy = 0; toy < kToys; ++toy) {
+  for (std::uint64_t replica = 0; replica < kReplicas; ++replica) {
     double square = 0.0;
     for (Eigen::Index k = 0; k < features; ++k)
-      square += std::pow(random_normal(toy, static_cast<std::uint64_t>(k)), 2);
-    // Chi-squared of many degrees of freedom, by Wilson and Hilferty.
+      square += std::pow(random_normal(replica, static_cast<std::uint64_t>(k)), 2);
+    // χ² of many degrees of freedom, by Wilson and Hilferty.
     double scale = 1.0;
-    if (freedom > 0.0) {
-      const double nu = freedom, v = 2.0 / (9.0 * nu);
-      scale = std::max(1e-3, std::pow(1.0 - v + std::sqrt(v) * random_normal(toy, 1u << 20), 3));
+    if (dof > 0.0) {
+      const double nu = dof, v = 2.0 / (9.0 * nu);
+      scale = std::max(1e-3, std::pow(1.0 - v + std::sqrt(v) * random_normal(replica, 1u << 20), 3));
     }
-    larger += square / scale >= misfit;
+    larger += square / scale >= chi_squared;
   }
-  return static_cast<double>(larger) / kToys;
+  return static_cast<double>(larger) / kReplicas;
 }
 
-/// What naming by the least misfit would say: none where the gap is within the noise.
+/// The single effect of least χ²: none where the gap is within the noise.
 std::string nearest_signature(const std::vector<Hypothesis>& hypotheses, Eigen::Index features) {
   const Hypothesis* nearest = nullptr;
   for (const auto& h : hypotheses) {
-    if (h.id == "none" && h.misfit <= static_cast<double>(features)) return h.id;
-    if (h.magnitudes.size() == 1 && (!nearest || h.misfit < nearest->misfit)) nearest = &h;
+    if (h.id == "none" && h.chi_squared <= static_cast<double>(features)) return h.id;
+    if (h.magnitudes.size() == 1 && (!nearest || h.chi_squared < nearest->chi_squared)) nearest = &h;
   }
   return nearest ? nearest->id : "none";
 }
@@ -100,11 +100,11 @@ std::vector<Hypothesis> within_range(std::vector<Hypothesis> hypotheses) {
 }
 
 /// Why a single effect is out of the question.
-std::string why_excluded(const Problem& problem, const Hypothesis& h, double misfit_of_none, double visible,
-                         const Rules& rules) {
+std::string why_excluded(const Problem& problem, const Hypothesis& h, double chi_squared_of_none,
+                         double visible, const Rules& rules) {
   const Signature& signature = *signature_of(problem.readings, h.id);
   if (visible < rules.separable) return "these observations would hardly show it at any usual magnitude";
-  if (misfit_of_none - h.misfit < 1.0) {
+  if (chi_squared_of_none - h.chi_squared < 1.0) {
     const std::string both = signature.lowest < 0.0 ? "at either sign it" : "it";
     return fmt::format("{} moves the features away from what was observed, or not at all; {}", both,
                        worst_of(problem.landmarks, problem.landmarks.gap.values));
@@ -125,12 +125,12 @@ Priors priors_of(const Comparison& readings, const Rules& rules) {
 
 void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hypotheses, const Rules& rules,
                       const BankPlan& plan, Diagnosis& diagnosis) {
-  double misfit_of_none = 0.0;
+  double chi_squared_of_none = 0.0;
   for (const auto& h : hypotheses)
-    if (h.id == "none") misfit_of_none = h.misfit;
+    if (h.id == "none") chi_squared_of_none = h.chi_squared;
   const double features = static_cast<double>(problem.readings.observed.features.size());
   for (const auto& h : hypotheses) {
-    Explanation e{h.id, h.probability, h.magnitudes, {}, h.misfit / features};
+    Explanation e{h.id, h.probability, h.magnitudes, {}, h.chi_squared / features};
     const auto ids = effects_in(h.id);
     for (const auto& id : ids) e.units.push_back(effects::find_effect(id, "diagnosis").unit);
     if (ids.size() == 1 && h.probability < rules.excluded &&
@@ -138,7 +138,7 @@ void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hyp
       const auto row =
           std::find(diagnosis.effects.begin(), diagnosis.effects.end(), h.id) - diagnosis.effects.begin();
       const double visible = diagnosis.separation(row, diagnosis.separation.cols() - 1);
-      e.reason = why_excluded(problem, h, misfit_of_none, visible, rules);
+      e.reason = why_excluded(problem, h, chi_squared_of_none, visible, rules);
       e.excluded = visible >= rules.separable;
     }
     diagnosis.explanations.push_back(std::move(e));
@@ -263,7 +263,7 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();
   diagnosis.nearest_signature = nearest_signature(hypotheses, directions);
   const Hypothesis& best = hypotheses.front();
-  diagnosis.goodness = goodness_of(best.misfit, directions, readings.gap.freedom);
+  diagnosis.p_value = p_value_of(best.chi_squared, directions, readings.gap.dof);
   const AmbiguitySet set = set_of(hypotheses, diagnosis.promise.correction);
   diagnosis.ambiguity_set = set.ids, diagnosis.set_probability = set.probability;
   set_unseen(hypotheses, diagnosis);

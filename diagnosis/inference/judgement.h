@@ -16,7 +16,7 @@ struct Rules {
 };
 
 /// Weighs every explanation of the gap and fills everything of a diagnosis that needs no further runs:
-/// gap, noise, promise, explanations, ambiguity set, goodness, signatures, separation, groups, pulls. What it
+/// gap, noise, promise, explanations, ambiguity set, p-value, signatures, separation, groups, pulls. What it
 /// promises is learnt from a replay where the problem has the features of its bank.
 void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, const Experiment& experiment,
            Diagnosis& diagnosis);

@@ -40,19 +40,19 @@ Eigen::VectorXd variance_of(const Signature& reduced, const Eigen::VectorXd& res
 }  // namespace
 
 double beside_unknown(const ReducedSpace& space, const ReducedGap& gap, const Prediction& prediction,
-                      double misfit) {
+                      double chi_squared) {
   std::vector<double> terms;
   for (double within : kUnknownFactors)
     for (double outside : kUnknownFactors)
       if (within > 1.0 || outside > 1.0)
-        terms.push_back(space.widened(gap, prediction, misfit, within, outside));
+        terms.push_back(space.widened(gap, prediction, chi_squared, within, outside));
   return log_sum(terms) - std::log(static_cast<double>(terms.size()));
 }
 
 struct MagnitudeGrid::Fitted {
   const Place* place;
   double log_likelihood = 0.0;
-  std::array<double, std::size(kScales)> misfits = {};
+  std::array<double, std::size(kScales)> chi_squareds = {};
 
   double log_weight() const { return place->log_prior + log_likelihood; }
   double log_density() const {
@@ -67,7 +67,7 @@ MagnitudeGrid::Fitted MagnitudeGrid::fit(const Place& place, const ReducedGap& g
   std::vector<double> terms;
   for (std::size_t k = 0; k < std::size(kScales); ++k) {
     const Fit one = space_.fit(gap, place.predictions[k]);
-    fitted.misfits[k] = one.misfit;
+    fitted.chi_squareds[k] = one.chi_squared;
     terms.push_back(std::log(kScaleWeights[k]) + one.log_likelihood);
   }
   fitted.log_likelihood = log_sum(terms);
@@ -127,7 +127,7 @@ std::vector<Prediction> MagnitudeGrid::predict(const std::vector<Cell>& cells) c
     if (here.draws.size() == 0) continue;
     errors.draws += grown * here.draws;
     drawn_outside += grown * here.drawn_outside;
-    errors.freedom = errors.freedom > 0.0 ? std::min(errors.freedom, here.drawn_freedom) : here.drawn_freedom;
+    errors.dof = errors.dof > 0.0 ? std::min(errors.dof, here.drawn_dof) : here.drawn_dof;
   }
   if (together_)
     sum += cells[0].theta / together_->theta_a * cells[1].theta / together_->theta_b * together_->beyond;
@@ -174,15 +174,15 @@ Weighed MagnitudeGrid::weigh(const ReducedGap& gap, double least) const {
 
   Weighed found;
   Hypothesis& hypothesis = found.hypothesis;
-  hypothesis.misfit = std::numeric_limits<double>::infinity();
+  hypothesis.chi_squared = std::numeric_limits<double>::infinity();
   std::vector<double> weights = {kNever}, beside = {kNever};
   for (const auto& one : fitted) {
     weights.push_back(one.log_weight());
     if (reduced_.size() == 1)  // pairs have no part in it
       for (std::size_t k = 0; k < std::size(kScales); ++k)
         beside.push_back(one.place->log_prior + std::log(kScaleWeights[k]) +
-                         beside_unknown(space_, gap, one.place->predictions[k], one.misfits[k]));
-    hypothesis.misfit = std::min(hypothesis.misfit, one.misfits[std::size(kScales) / 2]);
+                         beside_unknown(space_, gap, one.place->predictions[k], one.chi_squareds[k]));
+    hypothesis.chi_squared = std::min(hypothesis.chi_squared, one.chi_squareds[std::size(kScales) / 2]);
   }
   hypothesis.log_evidence = log_sum(weights), found.beside_unknown = log_sum(beside);
   for (std::size_t e = 0; e < reduced_.size(); ++e) {

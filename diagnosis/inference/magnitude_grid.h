@@ -18,7 +18,7 @@ struct Weighed {
 /// Mean over the widths of the noise within the span and outside it, of which at least one is larger: what is
 /// unknown may look like the known, or like nothing that is known. Logarithm.
 double beside_unknown(const ReducedSpace& space, const ReducedGap& gap, const Prediction& prediction,
-                      double misfit);
+                      double chi_squared);
 
 /// One effect, or two together, over a grid of magnitudes. What each says is worked out once and compared
 /// with any gap; cells are cut finer about the peak, since a field may say a magnitude far better than a grid

@@ -9,7 +9,7 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kFreedom = 100.0;  // most that the likelihood trusts a covariance with
+constexpr double kMostDof = 100.0;  // most that the likelihood trusts a covariance with
 constexpr Eigen::Index kMostDirections = 45;
 constexpr double kLeastDirection = 0.5;  // singular value, in units of the noise
 constexpr double kLongest = 8.0;         // a response counts no more than this for the directions
@@ -39,11 +39,11 @@ double in_fresh_directions(const Eigen::MatrixXd& rows) {
 
 ReducedSpace::ReducedSpace(const Gap& gap, const std::vector<Signature>& signatures)
     : factor_(gap.covariance + gap.believed * gap.believed.transpose()),
-      freedom_(gap.freedom > 0.0 ? std::min(gap.freedom, kFreedom) : 0.0) {
+      dof_(gap.dof > 0.0 ? std::min(gap.dof, kMostDof) : 0.0) {
   find_directions(signatures);
   dimensions_ = static_cast<double>(factor_.rows() - size());
   learn_outside(gap.outside);
-  log_chi_ = 0.5 * outside_freedom_ * M_LN2 + std::lgamma(0.5 * outside_freedom_);
+  log_chi_ = 0.5 * outside_dof_ * M_LN2 + std::lgamma(0.5 * outside_dof_);
 }
 
 void ReducedSpace::reduce(Response& response) const {
@@ -75,31 +75,32 @@ Prediction ReducedSpace::predict(const Eigen::VectorXd& response, const Errors& 
   Eigen::MatrixXd covariance = errors.draws;
   covariance.diagonal() += errors.shares;
   covariance.diagonal().array() += 1.0;
-  Prediction prediction{response, Eigen::LLT<Eigen::MatrixXd>(covariance), freedom_};
+  Prediction prediction{response, Eigen::LLT<Eigen::MatrixXd>(covariance), dof_};
   // Welch and Satterthwaite: noise and draws are known by different numbers of runs.
   const double share = errors.draws.trace() / covariance.trace();
-  if (freedom_ > 0.0 && errors.freedom > 0.0)
-    prediction.freedom = 1.0 / (share * share / errors.freedom + (1.0 - share) * (1.0 - share) / freedom_);
-  const double p = static_cast<double>(size()), nu = prediction.freedom;
+  if (dof_ > 0.0 && errors.dof > 0.0)
+    prediction.dof = 1.0 / (share * share / errors.dof + (1.0 - share) * (1.0 - share) / dof_);
+  const double p = static_cast<double>(size()), nu = prediction.dof;
   prediction.log_volume =
       prediction.factor.matrixLLT().diagonal().array().log().sum() +
       (nu <= 0.0 ? 0.5 * p * std::log(2.0 * M_PI)
                  : 0.5 * p * std::log(M_PI * nu) + std::lgamma(0.5 * nu) - std::lgamma(0.5 * (nu + p)));
   if (dimensions_ > 0.0)
-    prediction.widening = std::sqrt(1.0 + errors.outside / (outside_scale_ * outside_freedom_));
+    prediction.widening = std::sqrt(1.0 + errors.outside / (outside_scale_ * outside_dof_));
   return prediction;
 }
 
 Fit ReducedSpace::fit(const ReducedGap& gap, const Prediction& prediction) const {
   Fit fit;
-  fit.misfit = prediction.factor.matrixL().solve(gap.within - prediction.response).squaredNorm();
-  fit.log_likelihood = widened(gap, prediction, fit.misfit, 1.0, 1.0);
+  fit.chi_squared = prediction.factor.matrixL().solve(gap.within - prediction.response).squaredNorm();
+  fit.log_likelihood = widened(gap, prediction, fit.chi_squared, 1.0, 1.0);
   return fit;
 }
 
-double ReducedSpace::widened(const ReducedGap& gap, const Prediction& prediction, double misfit,
+double ReducedSpace::widened(const ReducedGap& gap, const Prediction& prediction, double chi_squared,
                              double within, double outside) const {
-  const double p = static_cast<double>(size()), nu = prediction.freedom, squared = misfit / (within * within);
+  const double p = static_cast<double>(size()), nu = prediction.dof,
+               squared = chi_squared / (within * within);
   return -prediction.log_volume - p * std::log(within) -
          (nu <= 0.0 ? 0.5 * squared : 0.5 * (nu + p) * std::log1p(squared / nu)) +
          log_outside(gap.outside, outside * prediction.widening);
@@ -129,7 +130,7 @@ void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {
 
 // What known runs leave outside is a multiple of χ², of their mean and variance; without runs, χ² itself.
 void ReducedSpace::learn_outside(const std::vector<double>& known) {
-  outside_freedom_ = dimensions_;
+  outside_dof_ = dimensions_;
   if (known.size() < kLeastKnown || dimensions_ <= 0.0) return;
   const double n = static_cast<double>(known.size());
   double mean = 0.0, square = 0.0;
@@ -137,12 +138,12 @@ void ReducedSpace::learn_outside(const std::vector<double>& known) {
   for (double one : known) square += (one - mean) * (one - mean) / (n - 1.0);
   if (!(mean > 0.0 && square > 0.0)) return;
   outside_scale_ = kFresh * square / (2.0 * mean);
-  outside_freedom_ = 2.0 * mean * mean / square;
+  outside_dof_ = 2.0 * mean * mean / square;
 }
 
 double ReducedSpace::log_outside(double outside, double factor) const {
   if (dimensions_ <= 0.0) return 0.0;
-  const double half = 0.5 * outside_freedom_, scale = outside_scale_ * factor * factor,
+  const double half = 0.5 * outside_dof_, scale = outside_scale_ * factor * factor,
                x = std::max(1e-9, outside / scale);
   return (half - 1.0) * std::log(x) - 0.5 * x - log_chi_ - std::log(scale);
 }

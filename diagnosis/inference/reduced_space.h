@@ -20,7 +20,7 @@ struct ReducedGap {
 struct Errors {
   Eigen::VectorXd shares;  ///< variances, of what is a share of the response
   Eigen::MatrixXd draws;   ///< covariance of what runs of it differ by
-  double freedom = 0.0;    ///< degrees of freedom of that; 0: it is known
+  double dof = 0.0;        ///< degrees of freedom of that; 0: it is known
   double outside = 0.0;    ///< square outside the span
 };
 
@@ -30,12 +30,12 @@ struct Errors {
 struct Prediction {
   Eigen::VectorXd response;
   Eigen::LLT<Eigen::MatrixXd> factor;
-  double freedom = 0.0, log_volume = 0.0, widening = 1.0;
+  double dof = 0.0, log_volume = 0.0, widening = 1.0;
 };
 
 /// How well a prediction fits: logarithm of the density, and Mahalanobis distance squared.
 struct Fit {
-  double log_likelihood = 0.0, misfit = 0.0;
+  double log_likelihood = 0.0, chi_squared = 0.0;
 };
 
 /// Features in units of their noise, believed inputs included, reduced to the directions that responses of
@@ -56,9 +56,9 @@ class ReducedSpace {
   /// The density is the multivariate t of Sellentin & Heavens (2016, MNRAS 456, L132).
   Fit fit(const ReducedGap& gap, const Prediction& prediction) const;
 
-  /// The log-likelihood of a fit's misfit where the noise's standard deviation is so many times as large
+  /// The log-likelihood of a χ² where the noise's standard deviation is so many times as large
   /// within the span, and outside it.
-  double widened(const ReducedGap& gap, const Prediction& prediction, double misfit, double within,
+  double widened(const ReducedGap& gap, const Prediction& prediction, double chi_squared, double within,
                  double outside) const;
 
  private:
@@ -69,10 +69,10 @@ class ReducedSpace {
   double log_outside(double outside, double factor) const;
 
   Eigen::LLT<Eigen::MatrixXd> factor_;
-  double freedom_;
+  double dof_;
   Eigen::MatrixXd directions_;  // orthonormal columns in the whitened features
   double dimensions_ = 0.0;     // outside the span
-  double outside_scale_ = 1.0, outside_freedom_ = 1.0;
+  double outside_scale_ = 1.0, outside_dof_ = 1.0;
   double log_chi_ = 0.0;  // normalisation of the density outside
 };
 

@@ -18,7 +18,7 @@ constexpr std::size_t kMostRegions = 200;
 constexpr double kNeighbours =
     0.064;                           // gap of beads whose parting weighs scans against simulation, diameters
 constexpr double kTolerance = 1e-4;  // of linear solves
-constexpr double kFreedom = 4.0;     // of the t distribution of a bead's difference
+constexpr double kDof = 4.0;         // of the t distribution of a bead's difference
 constexpr int kRounds = 6;           // of its weights
 constexpr double kSizes[] = {0.05, 0.1, 0.2, 0.4, 0.8, 1.6};  // of changes, before they are seen
 constexpr double kFalsePlaces = 0.05;
@@ -159,9 +159,9 @@ RegionFit fit_regions(const Eigen::MatrixXd& sensitivity, const Eigen::MatrixXd&
       const Eigen::MatrixXd p = precision / (size * size);
       const Eigen::LLT<Eigen::MatrixXd> first(h + p);
       Eigen::VectorXd change = first.solve(load);
-      const double freedom = static_cast<double>(rows) - first.solve(h).trace();
+      const double dof = static_cast<double>(rows) - first.solve(h).trace();
       const auto misfit = [&] { return (difference - sensitivity * change).cwiseAbs2().dot(weight); };
-      const double scale = std::max(1.0, misfit() / freedom);
+      const double scale = std::max(1.0, misfit() / dof);
       const Eigen::LLT<Eigen::MatrixXd> llt(h / scale + p);
       change = llt.solve(load / scale);
       const double evidence = -0.5 * (misfit() / scale + change.dot(p * change)) -
@@ -177,8 +177,7 @@ RegionFit fit_regions(const Eigen::MatrixXd& sensitivity, const Eigen::MatrixXd&
       double square = 0.0;
       for (Eigen::Index row = 3 * k; row < 3 * k + 3; ++row)
         square += left[row] * left[row] / (variance[row] * best.left * best.left);
-      weight.segment<3>(3 * k) =
-          (kFreedom + 3.0) / (kFreedom + square) * variance.segment<3>(3 * k).cwiseInverse();
+      weight.segment<3>(3 * k) = (kDof + 3.0) / (kDof + square) * variance.segment<3>(3 * k).cwiseInverse();
     }
   }
   return best;

@@ -175,7 +175,8 @@ std::string wrong_effect_of(const Diagnosis& diagnosis) {
   for (const auto& id : diagnosis.ambiguity_set)
     for (const auto& effect : effects_in(id)) named.insert(effect);
   for (const auto& e : diagnosis.explanations)
-    if (effects_in(e.id).size() == 1 && !named.contains(e.id) && !e.magnitudes.empty() && e.misfit > 0.0)
+    if (effects_in(e.id).size() == 1 && !named.contains(e.id) && !e.magnitudes.empty() &&
+        e.reduced_chi_squared > 0.0)
       return e.id;
   return "";
 }

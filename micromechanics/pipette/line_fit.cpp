@@ -105,10 +105,10 @@ bool is_curved(std::span<const double> x, std::span<const double> y, const LineF
     const Eigen::VectorXd fitted = b * (b.transpose() * b).ldlt().solve(b.transpose() * residual);
     return (residual - fitted).squaredNorm();
   };
-  const double straight = squares(2), bent = squares(4), freedom = static_cast<double>(n - 4);
+  const double straight = squares(2), bent = squares(4), dof = static_cast<double>(n - 4);
   // The F distribution with two numerator degrees of freedom has a closed form.
-  const double limit = 0.5 * freedom * (std::pow(significance, -2.0 / freedom) - 1.0);
-  return 0.5 * (straight - bent) > limit * bent / freedom;
+  const double limit = 0.5 * dof * (std::pow(significance, -2.0 / dof) - 1.0);
+  return 0.5 * (straight - bent) > limit * bent / dof;
 }
 
 std::optional<LinearRange> find_linear_range(std::span<const double> x, std::span<const double> y,

@@ -120,8 +120,8 @@ Part most_varied_part(const Grid<float>& grey) {
   return part;
 }
 
-/// How much the bodies of a part look like balls: share of them and of their volume.
-double likeness(BeadSearch trial, const Part& part, bool bright, const BallShare& balls_among) {
+/// Of the bodies of a part: share of them, and of their volume.
+double sphericity(BeadSearch trial, const Part& part, bool bright, const BallShare& balls_among) {
   const auto container = trial.container;
   if (container) {
     trial.container->axis_x -= part.first.x(), trial.container->axis_y -= part.first.y();
@@ -136,14 +136,14 @@ double likeness(BeadSearch trial, const Part& part, bool bright, const BallShare
   return inscribed * balls_among(trial);
 }
 
-/// Takes the tone, of those that may be, whose bodies look more like balls.
+/// Takes the tone, of those that may be, whose bodies are more spherical.
 void choose_tone(BeadSearch& search, const Grid<float>& grey, const std::vector<bool>& tones,
                  const BallShare& balls_among) {
   const Part part = most_varied_part(grey);
-  search.likeness = -1.0;
+  search.sphericity = -1.0;
   for (const bool bright : tones)
-    if (const double like = likeness(search, part, bright, balls_among); like > search.likeness)
-      search.likeness = like, search.bright = bright;
+    if (const double found = sphericity(search, part, bright, balls_among); found > search.sphericity)
+      search.sphericity = found, search.bright = bright;
 }
 
 /// Whether typical beads have enough nodes across.
@@ -172,7 +172,7 @@ BeadSearch search_bodies(const Volume& volume, BeadTone tone, const BallShare& b
     const bool open = tone == BeadTone::automatic && (factor > 1 || search.container);
     choose_tone(search, smooth, open ? std::vector{true, false} : std::vector{search.bright}, balls_among);
     find_bodies(search, smooth);
-    if (factor == 1 || (well_resolved(search) && (looks_like_balls(search) || !may_refine(volume))))
+    if (factor == 1 || (well_resolved(search) && (mostly_spherical(search) || !may_refine(volume))))
       return search;
   }
 }
@@ -192,9 +192,9 @@ BeadSearch halved(BeadSearch search) {
 
 }  // namespace
 
-bool looks_like_balls(const BeadSearch& search) {
+bool mostly_spherical(const BeadSearch& search) {
   constexpr double least = 0.02;
-  return search.likeness > least;
+  return search.sphericity > least;
 }
 
 bool may_refine(const Volume& volume) {
@@ -205,11 +205,11 @@ BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<doubl
                         const BallShare& balls_among) {
   constexpr double least_share = 0.25;
   BeadSearch search = search_bodies(volume, tone, balls_among);
-  if (may_refine(volume) && !(well_resolved(search) && looks_like_balls(search))) {
+  if (may_refine(volume) && !(well_resolved(search) && mostly_spherical(search))) {
     BeadSearch finer = search_bodies(resampled(volume, {2.0, 2.0, 2.0}), tone,
                                      [&](const BeadSearch& tried) { return balls_among(halved(tried)); });
     finer.histogram = search.histogram;
-    if (looks_like_balls(finer)) search = halved(std::move(finer));
+    if (mostly_spherical(finer)) search = halved(std::move(finer));
   }
   search.least_radius = least_radius.value_or(least_share * typical_radius(search.seeds));
   std::erase_if(search.seeds, [&](const Seed& seed) { return seed.radius < search.least_radius; });

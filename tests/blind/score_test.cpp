@@ -51,7 +51,7 @@ void add_to_report(const fs::path& folder, const json& more) {
   write_text(folder / "diagnosis.json", diagnosis.dump());
 }
 
-/// Seven cases of which all scores can be reckoned by hand.
+/// Seven cases of which all scores can be computed by hand.
 class Score : public ::testing::Test {
  protected:
   void SetUp() override {

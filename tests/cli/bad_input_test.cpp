@@ -68,7 +68,7 @@ TEST_P(BadInput, GivesOneLineAndTheRightStatus) {
 INSTANTIATE_TEST_SUITE_P(
     Table, BadInput,
     testing::Values(
-        BadCommand{"NoCommand", "$P", 2, "subcommand"}, BadCommand{"UnknownCommand", "$P melt", 2, "melt"},
+        BadCommand{"UnknownCommand", "$P melt", 2, "melt"},
         BadCommand{"UnknownOption", "$P pack two.csv --sample s.toml -o out.vtp --fast", 2, "--fast"},
         BadCommand{"NoOut", "$P pack two.csv --sample s.toml", 2, "--out"},
         BadCommand{"MissingSample", "$P phantom absent.toml -o out.mha", 3, "absent.toml"},

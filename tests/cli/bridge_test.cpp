@@ -15,16 +15,12 @@ using test::Outcome;
 using test::ScratchFolder;
 using test::shell;
 
-TEST(Bridge, WritesTheContractsColumnsAndTheConvergedValues) {
+TEST(Bridge, WritesTheConvergedValues) {
   ScratchFolder folder;
   const Outcome outcome =
       shell(folder.path(), "$P bridge --d-um 73.9 --gap-um 2 --D-um 200.9 --E-pa 1.5e6 --nu 0.49 -o out.csv");
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   const std::string text = read_text(folder / "out.csv");
-  EXPECT_NE(
-      text.find("\nd_um,D_um,gap_um,E_pa,nu,kn_n_per_m,kt_n_per_m,k_bend_n_m_per_rad,k_twist_n_m_per_rad,"
-                "error_estimate"),
-      std::string::npos);
   EXPECT_NE(text.find("# command: pendular bridge --d-um 73.9"), std::string::npos);
   const CsvTable table = read_csv(folder / "out.csv", {"kn_n_per_m", "kt_n_per_m", "error_estimate"});
   ASSERT_EQ(table.rows(), 1u);

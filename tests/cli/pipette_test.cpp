@@ -5,6 +5,7 @@
 
 #include "base/csv.h"
 #include "base/files.h"
+#include "documented.h"
 #include "pipette/phantom.h"
 #include "program.h"
 #include "scratch.h"
@@ -24,7 +25,7 @@ void write_test(const ScratchFolder& folder, const Phantom& phantom) {
   write_text(folder / "cal.toml", pipette::to_toml(pipette::phantom_calibration(phantom)));
 }
 
-TEST(PipetteCommand, WritesWhatTheContractSaysWhateverTheThreads) {
+TEST(PipetteCommand, WritesWhatThePageSaysWhateverTheThreads) {
   ScratchFolder folder;
   Phantom phantom;
   phantom.dropped = 9;
@@ -37,6 +38,8 @@ TEST(PipetteCommand, WritesWhatTheContractSaysWhateverTheThreads) {
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   const CsvTable table =
       read_csv(folder / "a.csv", {"time_s", "displacement_um", "force_n", "score", "used"});
+  EXPECT_EQ(test::columns_of(folder / "a.csv"), test::documented("`pipette` table"));
+  test::expect_documented_keys(folder / "a.json", "`pipette` summary");
   ASSERT_EQ(table.rows(), 60u);
   EXPECT_EQ(table.numbers("used")[9], 0.0);
   EXPECT_NEAR(table.numbers("time_s")[59], 5.9, 1e-9);

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "base/files.h"
 #include "program.h"
 #include "scratch.h"
@@ -26,6 +28,19 @@ TEST(Start, BothProgramsTellTheSameHelp) {
   const ScratchFolder folder;
   EXPECT_EQ(shell(folder.path(), "$P --help > a && $P-pictures --help > b && test -s a && cmp a b").status,
             0);
+}
+
+TEST(Start, AloneItShowsTheChainInFiveLines) {
+  const ScratchFolder folder;
+  ASSERT_EQ(shell(folder.path(), "$P > told.txt").status, 0);
+  std::istringstream lines(test::content(folder / "told.txt"));
+  std::string line;
+  for (const char* command : {"segment", "pack", "compress", "render", "diagnose"}) {
+    ASSERT_TRUE(std::getline(lines, line));
+    EXPECT_EQ(line.rfind(std::string("pendular ") + command + " ", 0), 0u) << line;
+    EXPECT_LE(line.size(), 100u) << line;
+  }
+  EXPECT_TRUE(std::getline(lines, line) && line.empty()) << line;
 }
 
 TEST(Start, WithoutItsCompanionAPictureCommandSaysSo) {

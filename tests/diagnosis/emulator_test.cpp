@@ -27,7 +27,7 @@ TEST(Emulator, FindsAQuadraticBesideMembersOfTheirOwn) {
   EXPECT_NEAR(responses.offsets(1, 0), 2.0, 1e-10);
   EXPECT_NEAR(responses.between(0, 0), 1.0, 1e-10);  // of 1, 2, 3
   EXPECT_NEAR(responses.within.norm(), 0.0, 1e-12);
-  EXPECT_NEAR(responses.freedom, 1.0, 1e-12);
+  EXPECT_NEAR(responses.dof, 1.0, 1e-12);
   EXPECT_FALSE(responses.find("other"));
 }
 
@@ -65,7 +65,7 @@ TEST(Emulator, ScatterIsThatOfTheNoise) {
   EXPECT_NEAR(responses.within(0, 1) / std::sqrt(responses.within(0, 0) * responses.within(1, 1)), 0.6, 0.1);
   EXPECT_NEAR(responses.between(0, 1), 0.09, 0.05);
   const auto scatter = scatter_of(responses);
-  EXPECT_GT(scatter.freedom, 30.0);
+  EXPECT_GT(scatter.dof, 30.0);
   // The noise of a run is already in what members differ by; the fit adds no more than a part of it.
   EXPECT_GT(scatter.covariance(0, 0), responses.between(0, 0));
   EXPECT_LT(scatter.covariance(0, 0), 1.05 * responses.between(0, 0) + responses.within(0, 0));
@@ -122,7 +122,7 @@ TEST(Emulator, CorrelationsOfMembersAreNotTrustedWhole) {
   responses.between = Eigen::MatrixXd::Ones(6, 6);
   responses.within = Eigen::MatrixXd::Zero(6, 6);
   const auto scatter = scatter_of(responses);
-  EXPECT_NEAR(scatter.freedom, 1.0, 1e-12);
+  EXPECT_NEAR(scatter.dof, 1.0, 1e-12);
   EXPECT_NEAR(scatter.covariance(0, 1), 0.65 * 1.5, 1e-12);
   EXPECT_NEAR(scatter.covariance(0, 0), 1.5, 1e-12);
 }

@@ -163,7 +163,7 @@ TEST(Evidence, AnEstimatedCovarianceIsTrustedLess) {
   // The same gap of four noises: with six degrees of freedom it is less of a surprise than with many.
   Gap gap = gap_of(Eigen::VectorXd::Constant(kFeatures, 1.5));
   const double known = probability(weigh(gap, effects(4, 8.0)), "none");
-  gap.freedom = 6.0;
+  gap.dof = 6.0;
   EXPECT_GT(probability(weigh(gap, effects(4, 8.0)), "none"), known);
 }
 

@@ -104,7 +104,7 @@ TEST_F(Planning, BridgesCountedTellMissingOnesFromASofterPolymer) {
               steps.experiments[k].gain / (0.5 + steps.experiments[k].cost));
 }
 
-TEST_F(Planning, WithoutRunsOnlyWhatTheBankShowsIsReckoned) {
+TEST_F(Planning, WithoutRunsOnlyWhatTheBankShowsIsAssessed) {
   const Experiment experiment = planned();
   const BankPlan plan = bank_of(experiment);
   std::vector<LedgerRow> ledger;

@@ -1,7 +1,7 @@
 #include "diagnosis_report/json.h"
 
-#include <nlohmann/json.hpp>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <limits>
@@ -36,7 +36,7 @@ const json& hypothesis(const json& report, const std::string& id) {
   throw std::out_of_range(id);
 }
 
-TEST(DiagnosisJson, HasEveryKeyOfTheContract) {
+TEST(DiagnosisJson, HasEveryKeyThatScriptsRelyOn) {
   const auto diagnosis = test::planted_diagnosis();
   const json report = read_back(diagnosis);
   expect_keys(report, {"verdict", "gap", "hypotheses", "ambiguity_set", "shrinkage", "next_experiments",

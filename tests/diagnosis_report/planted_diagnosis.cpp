@@ -147,7 +147,7 @@ void add_explanations(Diagnosis& d) {
   const auto explain = [&](const std::string& id, double probability) {
     diagnosis::Explanation e;
     e.id = id, e.probability = probability;
-    e.misfit = 0.8 + 10.0 * (1.0 - probability) * random_uniform(9, d.explanations.size());
+    e.reduced_chi_squared = 0.8 + 10.0 * (1.0 - probability) * random_uniform(9, d.explanations.size());
     d.explanations.push_back(e);
   };
   explain("missing_bridges", 0.62);
@@ -182,7 +182,7 @@ void add_explanations(Diagnosis& d) {
 void add_rest(Diagnosis& d) {
   d.ambiguity_set = {"missing_bridges", "bridge_diameter_spread"};
   d.set_probability = 0.83;
-  d.goodness = 0.41;
+  d.p_value = 0.41;
   std::vector<std::string> observations;
   for (const auto& overlay : d.overlays) observations.push_back(overlay.observation);
   for (std::size_t k = 0; k < observations.size(); ++k) {

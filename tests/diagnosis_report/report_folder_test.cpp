@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/csv.h"
+#include "documented.h"
 #include "planted_diagnosis.h"
 #include "scratch.h"
 
@@ -93,6 +94,19 @@ TEST(ReportFolder, HasAFigureWithItsDataForEverythingThatIsKnown) {
   EXPECT_NE(html.find("30 in all, of which 1 failed"), std::string::npos);
   expect_refers_to_nothing_outside(html);
   EXPECT_TRUE(nlohmann::json::accept(read_text(scratch / "diagnosis.json")));
+}
+
+TEST(ReportFolder, TablesHaveTheColumnsOfThePage) {
+  const test::ScratchFolder scratch;
+  const viz::Display display;
+  write_report_folder({scratch.path(), display}, test::planted_diagnosis());
+  for (auto row : test::documented_rows("Tables of a report")) {
+    std::string name = row.front();
+    if (const auto at = name.find("EFFECT"); at != std::string::npos)
+      name.replace(at, 6, "bridge_diameter_spread");
+    row.erase(row.begin());
+    EXPECT_EQ(test::columns_of(scratch / name), row) << name;
+  }
 }
 
 TEST(ReportFolder, OfADiagnosisThatFoundNothingSaysSo) {

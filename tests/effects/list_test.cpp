@@ -9,7 +9,7 @@
 namespace pendular::effects::test {
 namespace {
 
-TEST(Effects, AreThoseOfTheContractWithUsableRanges) {
+TEST(Effects, HaveTheirIdsAndUsableRanges) {
   std::set<std::string> ids;
   for (const auto& effect : all_effects()) {
     EXPECT_TRUE(ids.insert(effect.id).second) << effect.id;

@@ -1,7 +1,7 @@
 #include "packing/vtp.h"
 
-#include <nlohmann/json.hpp>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "packing/polydata.h"

@@ -176,7 +176,7 @@ TEST(OddVolumes, PoresAreNoBeadsAndBrokenBeadsAreLeftOut) {
   }
   const Segmentation found = segment(volume);
   EXPECT_EQ(found.warnings.size(), 1u);
-  EXPECT_TRUE(says(found.warnings, "bodies have no ball's edge and are not in the table"));
+  EXPECT_TRUE(says(found.warnings, "objects rejected, not in the table (boundary not spherical)"));
   const auto result = test::compare(intact, found.beads, voxel);
   EXPECT_EQ(result.missed, 0);
   EXPECT_EQ(result.invented, 0);
