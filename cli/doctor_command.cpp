@@ -5,8 +5,9 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "base/own_program.h"
+#include "base/process.h"
 #include "cli/command.h"
+#include "cli/own_program.h"
 
 namespace pendular::cli {
 namespace {
@@ -16,15 +17,6 @@ struct Part {
   std::string name, serves, found, remedy;
 };
 
-/// Where the shell would find a program; empty: nowhere.
-std::string on_path(const std::string& name) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (const fs::path file = fs::path(folder) / name; ::access(file.c_str(), X_OK) == 0) return file;
-  return {};
-}
-
 std::string companion() {
   fs::path program = own_program();
   if (fs::is_symlink(program)) program = fs::read_symlink(program);
@@ -33,7 +25,7 @@ std::string companion() {
 }
 
 std::string display() {
-  if (const std::string server = on_path("Xvfb"); !server.empty()) return server;
+  if (const std::string server = found_on_path("Xvfb"); !server.empty()) return server;
   const char* named = std::getenv("DISPLAY");
   return named && *named ? fmt::format("DISPLAY={}", named) : "";
 }
@@ -46,11 +38,12 @@ std::vector<Part> parts() {
   return {
       {"pendular-pictures", "commands that read or draw pictures", companion(), "install it beside pendular"},
       {"X server", "pictures, films, reports", display(), "apt-get install xvfb"},
-      {"ffmpeg", "films as .mp4; else numbered pictures", on_path("ffmpeg"), "apt-get install ffmpeg"},
+      {"ffmpeg", "films as .mp4; else numbered pictures", found_on_path("ffmpeg"), "apt-get install ffmpeg"},
       {"Python module", "import pendular", python_module(), "install python3-pendular"},
-      {"Slurm", "sweep, diagnose --executor slurm", on_path("sbatch"), "apt-get install slurm-wlm"},
-      {"Yade", "blind cases by another engine", on_path("yade"), "apt-get install yade"},
-      {"Chromium", "opening report.html; tests of it", on_path("chromium"), "apt-get install chromium"}};
+      {"Slurm", "sweep, diagnose --executor slurm", found_on_path("sbatch"), "apt-get install slurm-wlm"},
+      {"Yade", "blind cases by another engine", found_on_path("yade"), "apt-get install yade"},
+      {"Chromium", "opening report.html; tests of it", found_on_path("chromium"),
+       "apt-get install chromium"}};
 }
 
 void run() {

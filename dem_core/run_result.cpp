@@ -1,6 +1,5 @@
 #include "dem_core/run_result.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
