@@ -1,48 +1,15 @@
 #include "viz/film.h"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-
-#include <chrono>
-#include <thread>
-
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
-
-extern char** environ;
+#include "viz/program.h"
 
 namespace pendular::viz {
 namespace {
 
 std::string picture_name(std::size_t k) {
   return fmt::format("frame_{:04d}.png", k);
-}
-
-/// Runs a program found on PATH in a folder, silent and without a shell. Its exit status; nothing where it
-/// cannot be started or was killed. Ends it where the user stops the program.
-std::optional<int> run_program(std::vector<std::string> words, const fs::path& folder) {
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  for (int fd : {0, 1, 2}) posix_spawn_file_actions_addopen(&actions, fd, "/dev/null", O_RDWR, 0);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  pid_t child = 0;
-  const int failed = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) return std::nullopt;
-  int status = 0;
-  while (::waitpid(child, &status, WNOHANG) == 0) {
-    if (interrupted()) ::kill(child, SIGTERM);
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  stop_if_interrupted();
-  if (!WIFEXITED(status)) return std::nullopt;
-  return WEXITSTATUS(status);
 }
 
 std::optional<fs::path> make_video(const fs::path& folder, std::size_t pictures, const std::string& comment) {
