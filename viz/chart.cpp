@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
 #include "base/text_line.h"
 #include "viz/ticks.h"
@@ -74,12 +76,21 @@ std::string axis_script(const std::string& name, const Axis& axis, double zoom, 
 }  // namespace
 
 std::string as_string(const std::string& text) {
-  std::string out = "'";
+  // In double quotes, all but these by their octal number: gnuplot looks for commands (`), macros (@) and
+  // ends of strings, and of single quotes that are doubled it understands not all. It reads a number to its
+  // last digit, so that a digit after a number is one too.
+  constexpr std::string_view kPlain = " .,:;()/+-_=%<>";
+  std::string out = "\"";
+  bool after_number = false;
   for (const char c : printable(text)) {
-    if (c == '\'') out += '\'';  // two of them are one
-    out += c;
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = std::isdigit(byte) != 0 ? !after_number
+                                               : byte >= 128 || std::isalpha(byte) != 0 ||
+                                                     kPlain.find(c) != std::string_view::npos;
+    out += plain ? std::string(1, c) : fmt::format("\\{:03o}", byte);
+    after_number = !plain;
   }
-  return out + "'";
+  return out + "\"";
 }
 
 void Chart::add(const std::string& rows, const std::string& look, const std::string& label) {

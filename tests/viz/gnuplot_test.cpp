@@ -40,6 +40,10 @@ TEST(Gnuplot, TakesNoTextForACommand) {
       "\\",
       "'",
       "''",
+      "'; system \"touch " + victim + "\" #",
+      "a''; system \"touch " + victim + "\" #",
+      "\"; system 'touch " + victim + "' #",
+      "\\\"; system 'touch " + victim + "' #",
       "\"",
       "{",
       "}}}",
@@ -58,7 +62,7 @@ TEST(Gnuplot, TakesNoTextForACommand) {
       EXPECT_EQ(svg.find("<script"), std::string::npos);
       EXPECT_EQ(svg.find("</svg>"), svg.rfind("</svg>"));
     }
-  for (const std::string text : {"`x` @y $z {/Bold a}^2_3 %d '' \\", "</text><b> & &amp;"}) {
+  for (const std::string text : {"`x` @y $z {/Bold a}^2_3 %d '' '12 \\", "</text><b> & &amp;"}) {
     std::size_t said = 0;
     for (const auto& words : test::words(test::svg_of(series_of(text)))) said += words.text == text;
     EXPECT_EQ(said, 3u) << text << ": two axes and the legend";
