@@ -27,30 +27,39 @@ Character first_character(std::string_view text) {
     if (!continues(text[k])) return {};
     code = code << 6U | (static_cast<unsigned char>(text[k]) & 0x3fU);
   }
+  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
+  const bool surrogate = code >= 0xd800 && code <= 0xdfff;
+  if (overlong || surrogate || code > 0x10ffff) return {};
   return {code, length};
 }
 
-bool printable(std::uint32_t code) {
+bool is_printable(std::uint32_t code) {
   const bool control = code < 0x20 || (code >= 0x7f && code < 0xa0);
   const bool direction = (code >= 0x200e && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
                          (code >= 0x2066 && code <= 0x2069);
-  return !control && !direction && code != 0xfeff;
+  return !control && !direction && code != 0xfeff &&
+         (code & 0xfffeU) != 0xfffeU;
 }
 
 }  // namespace
 
-std::string text_line(std::string_view text) {
+std::string printable(std::string_view text) {
   std::string line;
   while (!text.empty()) {
     const auto [code, length] = first_character(text);
     if (text[0] == '\n' || text[0] == '\r' || text[0] == '\t')
       line += ' ';
-    else if (length > 0 && printable(code))
+    else if (length > 0 && is_printable(code))
       line += text.substr(0, length);
     else
       line += '?';
     text.remove_prefix(length > 0 ? length : 1);
   }
+  return line;
+}
+
+std::string text_line(std::string_view text) {
+  const std::string line = printable(text);
   if (line.size() <= kHead + kTail + 10) return line;
   std::size_t head = kHead, tail = line.size() - kTail;
   while (continues(line[head])) --head;

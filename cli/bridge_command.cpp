@@ -16,6 +16,7 @@
 #include "micromechanics/stiffness.h"
 #include "reproduction/paper.h"
 #include "viz/bridge_plot.h"
+#include "viz/gnuplot.h"
 
 namespace pendular::cli {
 namespace {
@@ -272,9 +273,9 @@ void run(const Options& options) {
   apply(options.common, {options.sample}, {options.common.out, options.plot});
   if (options.paper && (options.has_values() || !options.sample.empty()))
     throw BadUsage("bridge: --paper goes without a sample and without values");
-  if (!options.plot.empty() && options.plot.extension() != ".png")
-    throw BadUsage(
-        fmt::format("bridge: --plot: found {}, expected a name ending in .png", options.plot.string()));
+  if (!options.plot.empty() && !viz::is_figure_name(options.plot))
+    throw BadUsage(fmt::format("bridge: --plot: found {}, expected a name ending in .svg, .pdf or .png",
+                               options.plot.string()));
   const bool asks = options.paper || options.has_values() || !options.sample.empty();
   if (!asks && options.common.out.empty() && options.plot.empty()) return print_table_1();
 
@@ -291,12 +292,11 @@ void run(const Options& options) {
     write_text(options.common.out, csv);
   if (options.plot.empty()) return written.commit();
   const auto curves = curves_of(rows);
-  const viz::Display display;
   std::optional<viz::MeasuredStiffness> measured;
   if (options.paper)
     measured = {kPaperPipette.normal_low, kPaperPipette.normal_high, kPaperPipette.tangential_low,
                 kPaperPipette.tangential_high};
-  write_png(options.plot, draw_bridge_stiffness(display, curves, measured), to_comment(where_from));
+  viz::write_figure(viz::stiffness_figure(curves, measured), {options.plot}, to_comment(where_from));
   written.commit();
 }
 
@@ -313,7 +313,7 @@ void add_bridge(CLI::App& app) {
   command->add_option("--E-pa", options->youngs_modulus_pa, "Young's modulus of the polymer, Pa");
   command->add_option("--nu", options->poisson_ratio, "Poisson ratio of the polymer");
   command->add_flag("--paper", options->paper, "The bridges of the paper's Fig. 2(e,f) instead");
-  command->add_option("--plot", options->plot, "Draw kn and kt over d (.png)");
+  command->add_option("--plot", options->plot, "Draw kn and kt over d (.svg, .pdf or .png)");
   add_common(*command, options->common, "Table to write (.csv) [standard output]");
   command->get_option("--out")->required(false);
   command->callback([options] { run(*options); });

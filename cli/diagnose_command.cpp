@@ -15,7 +15,6 @@
 #include "diagnosis_report/plan_folder.h"
 #include "diagnosis_report/report_folder.h"
 #include "effects/list.h"
-#include "viz/display.h"
 
 namespace pendular::cli {
 namespace {
@@ -89,8 +88,7 @@ void plan(const Options& options, const diagnosis::Experiment& beliefs) {
   rules.confidence = options.confidence;
   std::vector<diagnosis::LedgerRow> ledger;
   const auto steps = diagnosis::plan_experiments(planned, bank, beads, maker(options), about, rules, ledger);
-  const viz::Display display;
-  diagnosis_report::write_plan_folder({options.common.out, display}, steps,
+  diagnosis_report::write_plan_folder(options.common.out, steps,
                                       provenance(options.common, {options.file, beliefs.sample_file}));
   say(in_words(steps));
 }
@@ -115,8 +113,7 @@ void run(const Options& options) {
   auto found = diagnosis::diagnose(experiment, bank, beads, maker(options), rules,
                                    {!options.no_fresh_runs, options.plan});
   found.provenance = provenance(options.common, inputs_of(options, experiment));
-  const viz::Display display;
-  diagnosis_report::write_report_folder({options.common.out, display}, found);
+  diagnosis_report::write_report_folder(options.common.out, found);
   say(found.verdict);
   for (const auto& warning : found.warnings) warn(warning);
 }

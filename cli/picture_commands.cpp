@@ -38,7 +38,7 @@ const std::map<std::string, const char*> kDescriptions = {
      "its\n"
      "stiffness is the force. Writes time_s,displacement_um,force_n,score,used, and beside it the stiffness "
      "with\n"
-     "its interval (.json) and a plot (.png). Positions in the image are in pixels, x to the right, y down, "
+     "its interval (.json) and a plot (.png, .pdf). Positions in the image are in pixels, x to the right, y down, "
      "the\n"
      "upper left pixel at (0, 0). Without a linear range the curve is kept, the stiffness is null and the "
      "exit\n"

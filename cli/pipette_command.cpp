@@ -9,6 +9,7 @@
 #include "pipette/measure.h"
 #include "pipette/overlay.h"
 #include "pipette/report.h"
+#include "viz/gnuplot.h"
 #include "viz/pipette_plot.h"
 
 namespace pendular::cli {
@@ -31,18 +32,17 @@ viz::ForceBranch branch_of(const pipette::Measurement& m, std::size_t first, std
   }
   if (fit)
     branch.line = viz::ForceBranch::Line{
-        fmt::format("{}: {:.4g} N/m, linear range {:.3g} to {:.3g} um", name, fit->line.slope,
+        fmt::format("{}: {:.4g} N/m, linear range {:.3g} to {:.3g} \u00b5m", name, fit->line.slope,
                     1e6 * fit->first_extension, 1e6 * fit->last_extension),
         fit->line.slope, 1e6 * fit->line.intercept, 1e6 * fit->first_extension, 1e6 * fit->last_extension};
   return branch;
 }
 
-void write_plot(const fs::path& path, const pipette::Measurement& m, const Provenance& provenance) {
-  const viz::Display display;
-  const auto image = viz::draw_force_displacement(
-      display, branch_of(m, 0, m.fit.turn, m.fit.loading, "loading"),
-      branch_of(m, m.fit.turn + 1, m.frames.size(), m.fit.unloading, "unloading"));
-  viz::write_png(path, image, to_comment(provenance));
+void write_plot(const fs::path& out, const pipette::Measurement& m, const Provenance& provenance) {
+  const auto figure =
+      viz::force_figure(branch_of(m, 0, m.fit.turn, m.fit.loading, "loading"),
+                        branch_of(m, m.fit.turn + 1, m.frames.size(), m.fit.unloading, "unloading"));
+  viz::write_figure(figure, {beside(out, ".png"), beside(out, ".pdf")}, to_comment(provenance));
 }
 
 /// The stage's speed is known without the images: a difference points at the scale or the frame rate.
@@ -74,7 +74,8 @@ void run(const PipetteOptions& options) {
   if (!options.film.empty() && options.film.extension() != ".mp4" && options.film.extension() != ".avi")
     throw BadUsage(fmt::format("pipette: --film: found {}, expected a name ending in .mp4 or .avi",
                                options.film.string()));
-  const std::vector<fs::path> outputs = {out, beside(out, ".json"), beside(out, ".png"), options.film};
+  const std::vector<fs::path> outputs = {out, beside(out, ".json"), beside(out, ".png"),
+                                         beside(out, ".pdf"), options.film};
   apply(options.common, {options.calibration}, outputs);
   protect_also(pipette::FrameSource(options.frames).files());
   require_outputs(outputs);
@@ -87,7 +88,7 @@ void run(const PipetteOptions& options) {
   WrittenTogether written;
   write_text(beside(out, ".json"), pipette::to_json(m, origin).dump(2) + "\n");
   write_text(out, pipette::to_csv(m, origin));
-  write_plot(beside(out, ".png"), m, origin);
+  write_plot(out, m, origin);
   if (!options.check.empty()) pipette::write_check_pictures(options.check, options.frames, m);
   if (!options.film.empty()) pipette::write_film(options.film, options.frames, m);
   written.commit();

@@ -96,9 +96,8 @@ void run(const Options& options) {
   std::map<std::string, std::vector<Point>> points;
   for (const char* name : kSweeps) points[name] = points_of(options, name, failed);
 
-  const viz::Display display;
   sweep::Store store(options.making.store_folder(options.common));
-  const auto sections = sections_of({out, display, from}, store, points);
+  const auto sections = sections_of({out, from}, store, points);
   write_text(out / "report.md", reproduction::to_markdown(sections, from));
   if (!failed.empty()) throw ComputationFailed(fmt::format("{}", fmt::join(failed, "; ")));
   say(fmt::format("{} sections in {}", sections.size(), (out / "report.md").string()));

@@ -96,7 +96,7 @@ std::vector<std::string> grouped_effects(const Diagnosis& d) {
   return effects;
 }
 
-Drawn magnitude_figure(const viz::Display& display, const Diagnosis& d, const std::string& effect) {
+Drawn magnitude_figure(const Diagnosis& d, const std::string& effect) {
   viz::RowPlot plot;
   RowSeries series;
   series.look = RowSeries::Look::points;
@@ -123,7 +123,7 @@ Drawn magnitude_figure(const viz::Display& display, const Diagnosis& d, const st
   const std::string name = diagnosis::plain_name(effect);
   const std::string in = drawn.after.starts_with(' ') ? drawn.after.substr(1) : drawn.after;
   plot.panels = {{in.empty() ? name : fmt::format("{} ({})", name, in), {series}, guides}};
-  return {viz::draw_rows(display, plot),
+  return {viz::row_figure(plot),
           fmt::format(
               "{}: the magnitude that each observation asks for by itself, with 90 % intervals, and all "
               "together (dashed). A cause is asked for alike by all; what only makes up for another is not.",
@@ -133,7 +133,7 @@ Drawn magnitude_figure(const viz::Display& display, const Diagnosis& d, const st
 
 }  // namespace
 
-std::optional<Drawn> hypothesis_figure(const viz::Display& display, const Diagnosis& d) {
+std::optional<Drawn> hypothesis_figure(const Diagnosis& d) {
   if (d.explanations.empty()) return {};
   const Shown shown = shown_of(d);
   viz::RowPlot plot;
@@ -151,13 +151,13 @@ std::optional<Drawn> hypothesis_figure(const viz::Display& display, const Diagno
   if (shown.other_pairs > 0)
     add(fmt::format("{} other pairs together", shown.other_pairs), shown.other_probability, false);
   plot.panels = {{"probability", {probability}, {}, notes}};
-  return Drawn{viz::draw_rows(display, plot),
+  return Drawn{viz::row_figure(plot),
                "Probability of every explanation, given the gap and what is believed of the specimens. Bold "
                "type and orange: those that cannot be told apart with these observations.",
                hypothesis_table(d)};
 }
 
-std::optional<Drawn> signature_figure(const viz::Display& display, const Diagnosis& d) {
+std::optional<Drawn> signature_figure(const Diagnosis& d) {
   if (d.signatures.size() == 0) return {};
   viz::Matrix map;
   map.rows = effect_names(d), map.columns = feature_labels(d);
@@ -166,7 +166,7 @@ std::optional<Drawn> signature_figure(const viz::Display& display, const Diagnos
   map.quantity = std::string("change/noise");
   map.limit = kLargestShown;
   return Drawn{
-      viz::draw_matrix(display, map),
+      viz::matrix_figure(map),
       fmt::format("Signatures: what each effect at its typical magnitude does to each feature of the "
                   "simulation, over the feature's noise; colours end at {:g}. Bold: the effects that "
                   "cannot be told apart with these observations.",
@@ -174,7 +174,7 @@ std::optional<Drawn> signature_figure(const viz::Display& display, const Diagnos
       matrix_table("signatures", d.effects, feature_names(d), map.values)};
 }
 
-std::optional<Drawn> separation_figure(const viz::Display& display, const Diagnosis& d) {
+std::optional<Drawn> separation_figure(const Diagnosis& d) {
   if (d.separation.size() == 0) return {};
   viz::Matrix map;
   map.rows = effect_names(d), map.columns = d.effects;
@@ -190,7 +190,7 @@ std::optional<Drawn> separation_figure(const viz::Display& display, const Diagno
   map.about_zero = false;
   map.limit = kLargestShown;
   return Drawn{
-      viz::draw_matrix(display, map),
+      viz::matrix_figure(map),
       fmt::format("How far each effect at its typical magnitude (row) is from the nearest that another "
                   "effect can do (column), and from no effect, in standard deviations of the noise; "
                   "colours end at {:g}. Framed: below three, not to be told apart here, or in the last "
@@ -199,14 +199,13 @@ std::optional<Drawn> separation_figure(const viz::Display& display, const Diagno
       matrix_table("separation", d.effects, map.columns, squared)};
 }
 
-std::vector<Drawn> magnitude_figures(const viz::Display& display, const Diagnosis& d) {
+std::vector<Drawn> magnitude_figures(const Diagnosis& d) {
   std::vector<Drawn> figures;
-  for (const std::string& effect : grouped_effects(d))
-    figures.push_back(magnitude_figure(display, d, effect));
+  for (const std::string& effect : grouped_effects(d)) figures.push_back(magnitude_figure(d, effect));
   return figures;
 }
 
-std::optional<Drawn> pull_figure(const viz::Display& display, const Diagnosis& d) {
+std::optional<Drawn> pull_figure(const Diagnosis& d) {
   if (d.pulls.empty()) return {};
   viz::RowPlot plot;
   RowSeries pull, impact;
@@ -221,7 +220,7 @@ std::optional<Drawn> pull_figure(const viz::Display& display, const Diagnosis& d
   }
   plot.panels = {{"pull (stated sd)", {pull}, {-1.0, 1.0}, {}, -1.2, 1.2}, {"impact (noise)", {impact}}};
   return Drawn{
-      viz::draw_rows(display, plot),
+      viz::row_figure(plot),
       "Believed inputs under the best explanation. Left: best value less believed one, in stated "
       "standard deviations, with what remains of the uncertainty; beyond the dashed lines an input is "
       "asked to be further off than was stated. Right: what one standard deviation does to the "
@@ -229,7 +228,7 @@ std::optional<Drawn> pull_figure(const viz::Display& display, const Diagnosis& d
       table};
 }
 
-std::optional<Drawn> goodness_figure(const viz::Display& display, const Diagnosis& d) {
+std::optional<Drawn> goodness_figure(const Diagnosis& d) {
   const Shown shown = shown_of(d);
   viz::RowPlot plot;
   RowSeries chi_squared;
@@ -244,7 +243,7 @@ std::optional<Drawn> goodness_figure(const viz::Display& display, const Diagnosi
   if (plot.labels.empty()) return {};
   plot.panels = {{"reduced chi-squared", {chi_squared}, {1.0}}};
   return Drawn{
-      viz::draw_rows(display, plot),
+      viz::row_figure(plot),
       fmt::format("Goodness of fit: χ² over the number of features, of each explanation at its best "
                   "magnitude; noise alone gives about one (dashed). The best explanation's p-value is {}.",
                   rounded(d.p_value)),

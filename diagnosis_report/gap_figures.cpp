@@ -67,7 +67,7 @@ Table map_table(const viz::Matrix& map) {
   return table;
 }
 
-Drawn map_figure(const viz::Display& display, const Diagnosis& d) {
+Drawn map_figure(const Diagnosis& d) {
   viz::Matrix map;
   map.rows = observations_of(d), map.columns = features_along_strain(d);
   map.values.assign(map.rows.size() * map.columns.size(), kNone);
@@ -85,7 +85,7 @@ Drawn map_figure(const viz::Display& display, const Diagnosis& d) {
   const Table table = map_table(map);
   for (std::string& name : map.columns) std::replace(name.begin(), name.end(), '_', ' ');
   return {
-      viz::draw_matrix(display, map),
+      viz::matrix_figure(map),
       fmt::format("Where simulation and experiment part: z of each feature, simulated less observed over "
                   "the noise of the difference; red where the simulation is too high, blue where it is "
                   "too low, framed where significant with all features taken together (|z| above {:.1f}). "
@@ -101,7 +101,7 @@ std::string label_of(const Feature& feature) {
                      100.0 * feature.strain_to);
 }
 
-Drawn feature_figure(const viz::Display& display, const Diagnosis& d) {
+Drawn feature_figure(const Diagnosis& d) {
   viz::RowPlot plot;
   viz::RowSeries z, share;
   for (const auto& row : d.gap.rows) {
@@ -111,7 +111,7 @@ Drawn feature_figure(const viz::Display& display, const Diagnosis& d) {
     share.values.push_back(100.0 * row.share);
   }
   plot.panels = {{"z", {z}, {-d.gap.threshold, d.gap.threshold}}, {"share of the gap (%)", {share}}};
-  return {viz::draw_rows(display, plot),
+  return {viz::row_figure(plot),
           "Every feature with the platen strain that it is read from: z, with the bounds of significance "
           "(dashed; significant ones in bold type and orange), and the share of the gap that goes when the "
           "feature is left out.",
@@ -120,11 +120,11 @@ Drawn feature_figure(const viz::Display& display, const Diagnosis& d) {
 
 }  // namespace
 
-std::vector<Drawn> gap_figures(const viz::Display& display, const Diagnosis& d) {
+std::vector<Drawn> gap_figures(const Diagnosis& d) {
   std::vector<Drawn> figures;
   if (d.gap.rows.empty()) return figures;
-  figures.push_back(map_figure(display, d));
-  figures.push_back(feature_figure(display, d));
+  figures.push_back(map_figure(d));
+  figures.push_back(feature_figure(d));
   return figures;
 }
 

@@ -4,12 +4,11 @@
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis_report/drawn.h"
-#include "viz/display.h"
 
 namespace pendular::diagnosis_report {
 
 /// Where the gap lies: z of every feature as a map of observations and features, and as bars beside each
 /// feature's share of the gap. None where there are no features.
-std::vector<Drawn> gap_figures(const viz::Display& display, const diagnosis::Diagnosis& diagnosis);
+std::vector<Drawn> gap_figures(const diagnosis::Diagnosis& diagnosis);
 
 }  // namespace pendular::diagnosis_report

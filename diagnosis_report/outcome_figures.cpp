@@ -45,7 +45,7 @@ std::vector<Row> rows_of(const Diagnosis& d) {
 
 }  // namespace
 
-std::optional<Drawn> shrinkage_figure(const viz::Display& display, const Diagnosis& d) {
+std::optional<Drawn> shrinkage_figure(const Diagnosis& d) {
   const auto rows = rows_of(d);
   if (rows.empty()) return {};
   viz::RowPlot plot;
@@ -64,14 +64,14 @@ std::optional<Drawn> shrinkage_figure(const viz::Display& display, const Diagnos
   }
   plot.panels = {{"excess gap (noise)", {before, after}},
                  {"share of the gap closed (%)", {closed}, {100.0}, {}, 0.0, 105.0}};
-  return Drawn{viz::draw_rows(display, plot),
+  return Drawn{viz::row_figure(plot),
                "How far the gap shrinks. Left: the gap beyond noise before and after. Right: the share of it "
                "that is closed, with its 90 % interval. Withheld observations took no part in choosing "
                "anything; the controls show what closes without the right cause.",
                table};
 }
 
-std::optional<Drawn> next_figure(const viz::Display& display, const diagnosis::NextSteps& steps) {
+std::optional<Drawn> next_figure(const diagnosis::NextSteps& steps) {
   if (steps.now.cases == 0) return {};
   viz::RowPlot plot;
   RowSeries sizes, settled, cost;
@@ -92,7 +92,7 @@ std::optional<Drawn> next_figure(const viz::Display& display, const diagnosis::N
                  {"settled by it (%)", {settled}, {}, {}, 0.0, 100.0},
                  {"cost (compression tests)", {cost}}};
   return Drawn{
-      viz::draw_rows(display, plot),
+      viz::row_figure(plot),
       "What to measure next, best value for its cost first: explanations that are expected to remain, "
       "and how probable it is that the right one remains alone.",
       next_table(steps)};

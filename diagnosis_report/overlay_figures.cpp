@@ -156,8 +156,7 @@ std::string caption_of(const Overlay& overlay, const Trace& compared) {
   return text + (compared.sd.empty() ? "." : "; grey: the measurement's standard deviation.");
 }
 
-std::vector<Drawn> band_figures(const viz::Display& display, const Overlay& overlay,
-                                const std::string& name) {
+std::vector<Drawn> band_figures(const Overlay& overlay, const std::string& name) {
   std::vector<Drawn> figures;
   for (const OverlayView& view : views_of(overlay)) {
     const Trace measured = view.shown(overlay.measured), compared = view.compared(overlay.measured);
@@ -168,7 +167,7 @@ std::vector<Drawn> band_figures(const viz::Display& display, const Overlay& over
     if (!overlay.repaired.empty())
       spreads.push_back(
           spread_of(view, overlay.repaired, compared.x, "repaired", "with the best explanation"));
-    Drawn figure{viz::draw_bands(display, plot_of(view, measured, compared, spreads)),
+    Drawn figure{viz::band_figure(plot_of(view, measured, compared, spreads)),
                  caption_of(overlay, compared),
                  band_table(view, compared, spreads),
                  {run_table(view, measured, spreads)}};
@@ -180,8 +179,7 @@ std::vector<Drawn> band_figures(const viz::Display& display, const Overlay& over
 }
 
 /// An observation that is one number.
-Drawn number_figure(const viz::Display& display, const Overlay& overlay, const std::string& name,
-                    const std::string& column) {
+Drawn number_figure(const Overlay& overlay, const std::string& name, const std::string& column) {
   viz::RowPlot plot;
   viz::RowSeries series;
   series.look = viz::RowSeries::Look::points;
@@ -215,7 +213,7 @@ Drawn number_figure(const viz::Display& display, const Overlay& overlay, const s
   add_runs("with the best explanation", overlay.repaired);
   const auto [least, most] = std::minmax_element(series.values.begin(), series.values.end());
   plot.panels = {{"bridges per interior bead", {series}, {}, {}, 0.95 * *least, 1.05 * *most}};
-  return {viz::draw_rows(display, plot),
+  return {viz::row_figure(plot),
           fmt::format("{} ({}): measured with its standard deviation, and the realisations from least to "
                       "largest.",
                       overlay.observation, overlay.kind->name),
@@ -224,16 +222,16 @@ Drawn number_figure(const viz::Display& display, const Overlay& overlay, const s
 
 }  // namespace
 
-std::vector<Drawn> overlay_figures(const viz::Display& display, const diagnosis::Diagnosis& d) {
+std::vector<Drawn> overlay_figures(const diagnosis::Diagnosis& d) {
   std::vector<Drawn> figures;
   for (std::size_t k = 0; k < d.overlays.size(); ++k) {
     const Overlay& overlay = d.overlays[k];
     const std::string name = fmt::format("overlay_{}_{}", k + 1, overlay.observation);
     if (overlay.kind == &diagnosis::kinds::coordination()) {
-      figures.push_back(number_figure(display, overlay, name, "z"));
+      figures.push_back(number_figure(overlay, name, "z"));
       continue;
     }
-    for (Drawn& figure : band_figures(display, overlay, name)) figures.push_back(std::move(figure));
+    for (Drawn& figure : band_figures(overlay, name)) figures.push_back(std::move(figure));
   }
   return figures;
 }

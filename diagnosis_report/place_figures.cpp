@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "viz/bead_map.h"
+#include "viz/display.h"
 
 namespace pendular::diagnosis_report {
 namespace {
@@ -80,8 +81,10 @@ Drawn stiffness_figure(const viz::Display& display, const Place& place) {
 
 }  // namespace
 
-std::vector<Drawn> place_figures(const viz::Display& display, const std::vector<Place>& places) {
+std::vector<Drawn> place_figures(const std::vector<Place>& places) {
   std::vector<Drawn> figures;
+  if (places.empty()) return figures;
+  const viz::Display display;
   for (const Place& place : places) {
     figures.push_back(misfit_figure(display, place));
     figures.push_back(stiffness_figure(display, place));

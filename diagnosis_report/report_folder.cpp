@@ -13,6 +13,7 @@
 #include "diagnosis_report/page.h"
 #include "diagnosis_report/place_figures.h"
 #include "diagnosis_report/tables.h"
+#include "viz/gnuplot.h"
 
 namespace pendular::diagnosis_report {
 namespace {
@@ -28,70 +29,78 @@ std::string file_name(std::string name) {
   return name.substr(0, kLongestName);
 }
 
-/// Writes figures and tables into the folder.
+/// Writes tables and pictures into the folder; charts are drawn together, at the end.
 class Files {
  public:
-  Files(const Desk& desk, const Diagnosis& diagnosis)
-      : desk_(desk),
+  Files(const fs::path& out, const Diagnosis& diagnosis)
+      : out_(out),
         comment_(to_comment(diagnosis.provenance)),
         metadata_(pendular::to_json(diagnosis.provenance)
                       .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {}
 
   void keep(const Table& table) const {
-    write_text(desk_.out / (file_name(table.name) + ".csv"), comment_ + to_csv(table));
+    write_text(out_ / (file_name(table.name) + ".csv"), comment_ + to_csv(table));
   }
-  void keep(const Drawn& figure, std::vector<viz::ReportPicture>& section) const {
+  void keep(const Drawn& figure, std::vector<viz::ReportPicture>& section) {
     stop_if_interrupted();
-    const fs::path picture = desk_.out / (file_name(figure.data.name) + ".png");
-    write_png(picture, figure.image, metadata_);
+    const auto file = [&](const char* extension) { return out_ / (file_name(figure.data.name) + extension); };
+    if (const auto* chart = std::get_if<viz::Figure>(&figure.picture)) {
+      charts_.push_back({*chart, {file(".png"), file(".pdf"), file(".svg")}});
+      section.push_back({file(".svg"), figure.caption});
+    } else {
+      write_png(file(".png"), std::get<viz::Image>(figure.picture), metadata_);
+      section.push_back({file(".png"), figure.caption});
+    }
     keep(figure.data);
     for (const Table& table : figure.more) keep(table);
-    section.push_back({picture, figure.caption});
   }
   template <typename Figures>
-  void keep_all(const Figures& figures, std::vector<viz::ReportPicture>& section) const {
+  void keep_all(const Figures& figures, std::vector<viz::ReportPicture>& section) {
     for (const Drawn& figure : figures) keep(figure, section);
   }
-  void keep(const std::optional<Drawn>& figure, std::vector<viz::ReportPicture>& section) const {
+  void keep(const std::optional<Drawn>& figure, std::vector<viz::ReportPicture>& section) {
     if (figure) keep(*figure, section);
   }
+  void draw_charts() const { viz::write_figures(charts_, metadata_); }
 
  private:
-  const Desk& desk_;
+  fs::path out_;
   std::string comment_, metadata_;
+  std::vector<viz::FigureFiles> charts_;
 };
 
-Pictures keep_figures(const Desk& desk, const Diagnosis& d, const Files& files) {
+Pictures keep_figures(const Diagnosis& d, Files& files) {
   Pictures pictures;
-  files.keep_all(gap_figures(desk.display, d), pictures.where);
-  files.keep_all(place_figures(desk.display, d.places), pictures.where);
-  files.keep_all(overlay_figures(desk.display, d), pictures.overlays);
-  files.keep(hypothesis_figure(desk.display, d), pictures.which);
-  files.keep_all(magnitude_figures(desk.display, d), pictures.which);
-  files.keep(signature_figure(desk.display, d), pictures.which);
-  files.keep(separation_figure(desk.display, d), pictures.which);
-  files.keep(pull_figure(desk.display, d), pictures.which);
-  files.keep(goodness_figure(desk.display, d), pictures.which);
-  files.keep(shrinkage_figure(desk.display, d), pictures.how_far);
-  files.keep(next_figure(desk.display, d.next), pictures.next);
+  files.keep_all(gap_figures(d), pictures.where);
+  files.keep_all(place_figures(d.places), pictures.where);
+  files.keep_all(overlay_figures(d), pictures.overlays);
+  files.keep(hypothesis_figure(d), pictures.which);
+  files.keep_all(magnitude_figures(d), pictures.which);
+  files.keep(signature_figure(d), pictures.which);
+  files.keep(separation_figure(d), pictures.which);
+  files.keep(pull_figure(d), pictures.which);
+  files.keep(goodness_figure(d), pictures.which);
+  files.keep(shrinkage_figure(d), pictures.how_far);
+  files.keep(next_figure(d.next), pictures.next);
   return pictures;
 }
 
 }  // namespace
 
-void write_report_folder(const Desk& desk, const Diagnosis& d) {
-  make_folder(desk.out);
-  const Files files(desk, d);
-  const Pictures pictures = keep_figures(desk, d, files);
+void write_report_folder(const fs::path& out, const Diagnosis& d) {
+  make_folder(out);
+  Files files(out, d);
+  const Pictures pictures = keep_figures(d, files);
   for (const Table& table : {gap_table(d), share_table(d), hypothesis_table(d), noise_table(d),
                              excluded_table(d), promise_table(d), reliability_table(d), next_table(d.next),
                              next_effects_table(d.next), ledger_table(d)})
     files.keep(table);
   for (const auto& place : d.places)
-    write_polydata(desk.out / (file_name("place_" + place.observation) + ".vtp"), place_polydata(place));
-  viz::write_report(desk.out / "report.html", page_of(d, pictures));
-  write_text(desk.out / "diagnosis.json",
+    write_polydata(out / (file_name("place_" + place.observation) + ".vtp"), place_polydata(place));
+  write_text(out / "diagnosis.json",
              to_json(d).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  files.draw_charts();  // where they cannot be, the numbers are there
+  viz::write_report(out / "report.html", page_of(d, pictures));
 }
 
 }  // namespace pendular::diagnosis_report

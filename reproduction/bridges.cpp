@@ -59,7 +59,7 @@ Section bridges_section(const Desk& desk) {
   section.comparisons.push_back(pipette("Micropipette tests, kt", p.tangential_low, p.tangential_high,
                                         curves[0].tangential.front(), curves[1].tangential.back()));
   const viz::MeasuredStiffness measured{p.normal_low, p.normal_high, p.tangential_low, p.tangential_high};
-  section.figures.push_back(desk.keep("bridges", draw_bridge_stiffness(desk.display, curves, measured), csv,
+  section.figures.push_back(desk.keep("bridges", viz::stiffness_figure(curves, measured), csv,
                                       "Stiffness of a bridge of the micropipette tests over its diameter."));
   return section;
 }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "viz/gnuplot.h"
+
 namespace pendular::reproduction {
 namespace {
 
@@ -65,9 +67,9 @@ std::string to_markdown(const std::vector<Section>& sections, const Provenance& 
   return text + fmt::format("\nMade by pendular {}: `{}`\n", provenance.version, provenance.command);
 }
 
-Figure Desk::keep(const std::string& name, const viz::Image& image, const std::string& csv,
+Figure Desk::keep(const std::string& name, const viz::Figure& chart, const std::string& csv,
                   const std::string& caption) const {
-  write_png(out / (name + ".png"), image, to_comment(provenance));
+  viz::write_figure(chart, {out / (name + ".png"), out / (name + ".pdf")}, to_comment(provenance));
   write_text(out / (name + ".csv"), to_comment(provenance) + csv);
   return {name + ".png", name + ".csv", caption};
 }

@@ -6,8 +6,7 @@
 
 #include "base/files.h"
 #include "base/provenance.h"
-#include "viz/display.h"
-#include "viz/image.h"
+#include "viz/figure.h"
 
 namespace pendular::reproduction {
 
@@ -43,14 +42,13 @@ struct Section {
 /// matched and why.
 std::string to_markdown(const std::vector<Section>& sections, const Provenance& provenance);
 
-/// Where figures go, and what draws them.
+/// Where figures go.
 struct Desk {
   fs::path out;
-  const viz::Display& display;
   const Provenance& provenance;
 
-  /// Writes NAME.png and NAME.csv (header line, then rows), and gives the figure.
-  Figure keep(const std::string& name, const viz::Image& image, const std::string& csv,
+  /// Writes NAME.png, NAME.pdf and NAME.csv (header line, then rows), and gives the figure.
+  Figure keep(const std::string& name, const viz::Figure& chart, const std::string& csv,
               const std::string& caption) const;
 };
 

@@ -188,14 +188,14 @@ Section stiffness_section(const Desk& desk, const std::vector<Point>& points) {
     const auto [low, high] = std::minmax_element(x.begin(), x.end());
     series.push_back({"E = E_p", {*low, *high}, {*low, *high}, {}, Series::Look::dashes});
   }
-  section.figures.push_back(
-      desk.keep("modulus_of_e_p", draw_series(desk.display, series, {"E_p (MPa)", true}, {"E (MPa)", true}),
-                csv_of(entries), "E against E_p."));
+  section.figures.push_back(desk.keep("modulus_of_e_p",
+                                      viz::series_figure(series, {"E_p (MPa)", true}, {"E (MPa)", true}),
+                                      csv_of(entries), "E against E_p."));
   const auto limits = over_polymer(entries, "", &Entry::limit, 0.01);
   if (std::any_of(entries.begin(), entries.end(), [](const Entry& e) { return e.limit.count > 0; }))
-    section.figures.push_back(desk.keep(
-        "limit_of_e_p", draw_series(desk.display, limits, {"E_p (MPa)", true}, {"linear limit (%)"}),
-        csv_of(entries), "Strain at the end of the linear part, beyond the toe, against E_p."));
+    section.figures.push_back(
+        desk.keep("limit_of_e_p", viz::series_figure(limits, {"E_p (MPa)", true}, {"linear limit (%)"}),
+                  csv_of(entries), "Strain at the end of the linear part, beyond the toe, against E_p."));
   return section;
 }
 
@@ -224,8 +224,8 @@ Section content_section(const Desk& desk, const std::vector<Point>& points) {
   const std::vector<Series> series = {
       e, fixed, {"W*", {critical, critical}, {0.0, highest}, {}, Series::Look::dashes}};
   section.figures.push_back(desk.keep("modulus_of_content",
-                                      draw_series(desk.display, series, {"W (%)"}, {"E (MPa)"}),
-                                      csv_of(entries), "E against W."));
+                                      viz::series_figure(series, {"W (%)"}, {"E (MPa)"}), csv_of(entries),
+                                      "E against W."));
   return section;
 }
 

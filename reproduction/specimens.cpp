@@ -108,7 +108,7 @@ Section specimen_section(const Desk& desk, const std::string& name, const Point&
   }
   const std::string file = "curves_" + lower_case(name);
   section.figures.push_back(
-      desk.keep(file, viz::draw_stress_strain(desk.display, point.runs, {1200, 900}), curves_csv(point),
+      desk.keep(file, viz::stress_strain_figure(point.runs, {1200, 900}), curves_csv(point),
                 fmt::format("Sample {}: stress over strain, and broken bonds per bin of 4.2e-4.", name)));
   add_band_picture(desk, "band_" + lower_case(name), point, section);
   return section;
@@ -144,9 +144,9 @@ Section coordination_section(const Desk& desk, sweep::Store& store, std::span<co
   stated.y = {kPaperCoordination};
   stated.sd = {0.1};
   series.push_back(stated);
-  section.figures.push_back(
-      desk.keep("coordination", draw_series(desk.display, series, {"cut-off / D"}, {"bridges per bead"}), csv,
-                "Z against the cut-off."));
+  section.figures.push_back(desk.keep("coordination",
+                                      viz::series_figure(series, {"cut-off / D"}, {"bridges per bead"}), csv,
+                                      "Z against the cut-off."));
   return section;
 }
 

@@ -87,7 +87,7 @@ Section volume_fraction_section(const Desk& desk, const std::vector<Point>& poin
   compare_ends(points, section);
   section.figures.insert(
       section.figures.begin(),
-      desk.keep("volume_fraction", draw_series(desk.display, curves, {"strain (%)"}, {"stress (MPa)"}), csv,
+      desk.keep("volume_fraction", viz::series_figure(curves, {"strain (%)"}, {"stress (MPa)"}), csv,
                 "Stress over strain at different volume fractions (first realisation)."));
   return section;
 }

@@ -68,6 +68,18 @@ void add_text(vtkRenderer* renderer, const Canvas& canvas, const std::string& te
   renderer->AddViewProp(actor);
 }
 
+vtkSmartPointer<vtkColorTransferFunction> colours(ColourMap map, Range range) {
+  const auto stations = colours_of(map);
+  auto function = vtkSmartPointer<vtkColorTransferFunction>::New();
+  for (std::size_t k = 0; k < stations.size(); ++k) {
+    const double t = static_cast<double>(k) / static_cast<double>(stations.size() - 1);
+    const auto& [r, g, b] = stations[k];
+    function->AddRGBPoint(range.low + t * (range.high - range.low), r, g, b);
+  }
+  function->SetNanColor(0.6, 0.6, 0.6);
+  return function;
+}
+
 void add_colour_bar(vtkRenderer* renderer, const Canvas& canvas, const std::string& title, Range range,
                     vtkScalarsToColors* map, const Box& bar) {
   constexpr int kSteps = 256;

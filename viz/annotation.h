@@ -2,7 +2,9 @@
 
 // Text, colour bar and length scale of the viz folder's pictures. Internal: knows VTK.
 
+#include <vtkColorTransferFunction.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 
 #include <array>
 #include <string>
@@ -10,20 +12,10 @@
 
 #include "viz/canvas.h"
 #include "viz/colours.h"
+#include "viz/text_style.h"
 
 namespace pendular::viz {
 
-enum class Align { left, centre, right };
-
-/// Positions are shares of the picture's width and height from the lower left. `size` in pixels of a picture
-/// 1200 pixels high.
-struct TextStyle {
-  double size = 32.0;
-  bool bold = false;
-  Align align = Align::left;
-  double angle = 0.0;  ///< anticlockwise, degrees
-  bool white = false;  ///< on dark ground
-};
 void add_text(vtkRenderer* renderer, const Canvas& canvas, const std::string& text, double x, double y,
               const TextStyle& style = {});
 
@@ -33,6 +25,9 @@ struct Box {
 };
 using Rgb = std::array<unsigned char, 3>;
 void add_boxes(vtkRenderer* renderer, const std::vector<Box>& boxes, const std::vector<Rgb>& colours);
+
+/// The colours of a range of values; those that are no number are grey.
+vtkSmartPointer<vtkColorTransferFunction> colours(ColourMap map, Range range);
 
 /// Where a colour bar stands by itself: at the right of the picture.
 inline constexpr Box kColourBar{0.845, 0.24, 0.875, 0.76};

@@ -1,9 +1,5 @@
 #include "viz/band_plot.h"
 
-#include <vtkAxis.h>
-#include <vtkPen.h>
-#include <vtkPlotPoints.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +15,7 @@ constexpr Colour kBlack{20, 20, 20}, kGrey{120, 120, 120};
 constexpr Area kWhole{0.115, 0.1, 0.865, 0.88}, kMain{0.115, 0.37, 0.865, 0.61},
     kStrip{0.115, 0.1, 0.865, 0.21};
 constexpr double kZoom = 0.78;
-constexpr unsigned char kBandOpacity = 70, kLineOpacity = 90;
+constexpr double kBandOpacity = 0.27, kLineOpacity = 0.35;
 constexpr std::size_t kFewPoints = 60;  // up to which points are drawn large
 
 struct Extent {
@@ -69,49 +65,40 @@ Points points_of(const std::vector<double>& x, const std::vector<double>& y) {
   return points;
 }
 
-void add_markers(vtkChartXY* chart, const Points& points, const std::string& label, Colour colour,
-                 double size, const Canvas& canvas) {
-  auto* plot =
-      vtkPlotPoints::SafeDownCast(add_plot(chart, vtkChart::POINTS, points, label, colour, canvas.scaled(2)));
-  plot->SetMarkerStyle(vtkPlotPoints::CIRCLE);
-  plot->SetMarkerSize(static_cast<float>(canvas.scaled(size)));
+void add_fills(Chart& chart, const Band& band, Colour colour) {
+  for (const auto& [first, last] : parts(band))
+    chart.add_fill(part_of(band.x, first, last), part_of(band.low, first, last),
+                   part_of(band.high, first, last), colour, kBandOpacity);
 }
 
-void add_band(vtkChartXY* chart, const Band& band, Colour colour, bool named, const Canvas& canvas) {
+void add_band(Chart& chart, const Band& band, Colour colour, bool named, const Sheet& sheet) {
   for (const Series& line : band.lines)
-    add_plot(chart, vtkChart::LINE, points_of(line.x, line.y), "", colour, canvas.scaled(1.5))
-        ->GetPen()
-        ->SetOpacity(kLineOpacity);
+    chart.add_line(points_of(line.x, line.y), {colour, sheet.scaled(1.5), false, kLineOpacity});
+  add_fills(chart, band, colour);
   bool first_part = named;
   for (const auto& [first, last] : parts(band)) {
-    const auto x = part_of(band.x, first, last), low = part_of(band.low, first, last),
-               middle = part_of(band.middle, first, last), high = part_of(band.high, first, last);
+    const auto x = part_of(band.x, first, last), middle = part_of(band.middle, first, last);
     const std::string label = first_part ? band.label : "";
     first_part = false;
-    if (x.size() == 1) {
-      add_plot(chart, vtkChart::LINE, {{x[0], low[0]}, {x[0], high[0]}}, "", colour, canvas.scaled(4));
-      add_markers(chart, points_of(x, middle), label, colour, 20, canvas);
+    if (x.size() > 1) {
+      chart.add_line(points_of(x, middle), {colour, sheet.scaled(5)}, label);
       continue;
     }
-    add_fill(chart, x, low, high, "", colour, kBandOpacity);
-    add_plot(chart, vtkChart::LINE, points_of(x, middle), label, colour, canvas.scaled(5));
+    chart.add_segments({{{x[0], band.low[first]}, {x[0], band.high[first]}}}, {colour, sheet.scaled(4)});
+    chart.add_points(points_of(x, middle), colour, sheet.scaled(20), label);
   }
 }
 
-void add_measured(vtkChartXY* chart, const Series& measured, const Canvas& canvas) {
+void add_measured(Chart& chart, const Series& measured, const Sheet& sheet) {
   const Points points = points_of(measured.x, measured.y);
-  if (points.empty()) return;
-  if (measured.look != Series::Look::points) {
-    add_plot(chart, vtkChart::LINE, points, measured.label, kBlack, canvas.scaled(4));
-    return;
-  }
+  if (measured.look != Series::Look::points)
+    return chart.add_line(points, {kBlack, sheet.scaled(4)}, measured.label);
+  std::vector<Segment> bars;
   for (std::size_t k = 0; k < measured.sd.size(); ++k)
-    if (std::isfinite(measured.sd[k]))
-      add_plot(
-          chart, vtkChart::LINE,
-          {{measured.x[k], measured.y[k] - measured.sd[k]}, {measured.x[k], measured.y[k] + measured.sd[k]}},
-          "", kBlack, canvas.scaled(3));
-  add_markers(chart, points, measured.label, kBlack, points.size() > kFewPoints ? 7 : 18, canvas);
+    bars.push_back(
+        {{measured.x[k], measured.y[k] - measured.sd[k]}, {measured.x[k], measured.y[k] + measured.sd[k]}});
+  chart.add_segments(bars, {kBlack, sheet.scaled(3)});
+  chart.add_points(points, kBlack, sheet.scaled(points.size() > kFewPoints ? 7 : 18), measured.label);
 }
 
 Extent across(const BandPlot& plot) {
@@ -135,44 +122,37 @@ Extent up(const BandPlot& plot) {
   return extent.widened(0.04, 0.06 + 0.085 * lines);
 }
 
-void add_strip(ChartSheet& sheet, const BandPlot& plot, const Extent& x) {
-  const Canvas& canvas = sheet.canvas();
-  vtkChartXY* chart = sheet.add_chart(kStrip);
-  chart->SetShowLegend(false);
+void add_strip(Sheet& sheet, const BandPlot& plot, const Extent& x) {
   Extent y;
   y.hold({0.0});
   y.hold(plot.error.low), y.hold(plot.error.high);
   for (const Band& band : plot.residuals) y.hold(band.low), y.hold(band.high);
   y = y.widened(0.08, 0.08);
-  for (const auto& [first, last] : parts(plot.error))
-    add_fill(chart, part_of(plot.error.x, first, last), part_of(plot.error.low, first, last),
-             part_of(plot.error.high, first, last), "", kGrey, kBandOpacity);
+  Chart chart(kStrip, {x.low, x.high}, {y.low, y.high, 4});
+  add_fills(chart, plot.error, kGrey);
   for (std::size_t k = 0; k < plot.residuals.size(); ++k)
-    add_band(chart, plot.residuals[k], kColours[k % kColours.size()], false, canvas);
-  add_plot(chart, vtkChart::LINE, {{x.low, 0.0}, {x.high, 0.0}}, "", kBlack, canvas.scaled(2.5));
-  set_axis(chart->GetAxis(vtkAxis::BOTTOM), x.low, x.high, canvas);
-  set_axis(chart->GetAxis(vtkAxis::LEFT), y.low, y.high, canvas, 1.0, 4);
+    add_band(chart, plot.residuals[k], kColours[k % kColours.size()], false, sheet);
+  chart.add_line({{x.low, 0.0}, {x.high, 0.0}}, {kBlack, sheet.scaled(2.5)});
+  sheet.add(chart);
   sheet.write_upright(plot.residual_title, 0.022, kStrip.middle_y());
 }
 
 }  // namespace
 
-Image draw_bands(const Display& display, const BandPlot& plot, PictureSize size) {
-  ChartSheet sheet(display, size, kZoom * size.width / 1600.0);
-  const Canvas& canvas = sheet.canvas();
+Figure band_figure(const BandPlot& plot, PictureSize size) {
+  Sheet sheet(size, kZoom * size.width / 1600.0);
   const bool strip = !plot.residuals.empty();
   const Area area = strip ? kMain : kWhole;
   const Extent x = across(plot), y = up(plot);
-  vtkChartXY* chart = sheet.add_chart(area);
+  Chart chart(area, {x.low, x.high}, {y.low, y.high});
   for (std::size_t k = 0; k < plot.bands.size(); ++k)
-    add_band(chart, plot.bands[k], kColours[k % kColours.size()], true, canvas);
-  add_measured(chart, plot.measured, canvas);
-  set_axis(chart->GetAxis(vtkAxis::BOTTOM), x.low, x.high, canvas);
-  set_axis(chart->GetAxis(vtkAxis::LEFT), y.low, y.high, canvas);
+    add_band(chart, plot.bands[k], kColours[k % kColours.size()], true, sheet);
+  add_measured(chart, plot.measured, sheet);
+  sheet.add(chart);
   sheet.write_upright(plot.y_title, 0.022, area.middle_y());
   sheet.write(plot.x_title, area.middle_x(), 0.03);
   if (strip) add_strip(sheet, plot, x);
-  return sheet.draw();
+  return sheet.figure();
 }
 
 }  // namespace pendular::viz

@@ -3,8 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "viz/display.h"
-#include "viz/image.h"
+#include "viz/figure.h"
 #include "viz/series_plot.h"
 
 namespace pendular::viz {
@@ -26,6 +25,6 @@ struct BandPlot {
   Band error = {};              ///< of what was measured, about zero in the strip; empty: not stated
 };
 
-Image draw_bands(const Display& display, const BandPlot& plot, PictureSize size = {1600, 1200});
+Figure band_figure(const BandPlot& plot, PictureSize size = {1600, 1200});
 
 }  // namespace pendular::viz

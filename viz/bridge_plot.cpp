@@ -1,8 +1,5 @@
 #include "viz/bridge_plot.h"
 
-#include <vtkAxis.h>
-#include <vtkPen.h>
-
 #include <algorithm>
 #include <array>
 
@@ -25,6 +22,7 @@ struct Panel {
   std::optional<std::pair<double, double>> measured;
 };
 constexpr double kBottom = 0.14, kWidth = 0.38, kHeight = 0.78;
+constexpr double kRoom = 0.08, kLegendLine = 0.055;  // above the highest value, in shares of it
 
 Points points_of(const Values& x, const Values& y) {
   Points points;
@@ -32,39 +30,36 @@ Points points_of(const Values& x, const Values& y) {
   return points;
 }
 
-void add_panel(ChartSheet& sheet, std::span<const StiffnessCurve> curves, const Panel& panel) {
-  const Area area{panel.left, kBottom, kWidth, kHeight};
-  const Canvas& canvas = sheet.canvas();
-  vtkChartXY* chart = sheet.add_chart(area);
-  double low = curves[0].diameter_um.front(), high = curves[0].diameter_um.back(), top = 0.0;
+void add_panel(Sheet& sheet, std::span<const StiffnessCurve> curves, const Panel& panel) {
+  double low = curves[0].diameter_um.front(), high = curves[0].diameter_um.back(),
+         top = panel.measured ? panel.measured->second : 0.0;
   for (const StiffnessCurve& curve : curves) {
     low = std::min(low, curve.diameter_um.front());
     high = std::max(high, curve.diameter_um.back());
     top = std::max(top, *std::max_element((curve.*panel.values).begin(), (curve.*panel.values).end()));
   }
+  const auto lines = static_cast<double>(curves.size() + (panel.measured ? 1 : 0));
+  const Area area{panel.left, kBottom, kWidth, kHeight};
+  Chart chart(area, {low, high}, {0.0, (1.0 + kRoom + kLegendLine * lines) * top});
   if (panel.measured) {
-    top = std::max(top, panel.measured->second);
-    const std::array bounds = {panel.measured->first, panel.measured->second};
-    for (double bound : bounds)
-      add_plot(chart, vtkChart::LINE, {{low, bound}, {high, bound}},
-               bound == bounds[0] ? "range of measured values" : "", kGrey, canvas.scaled(3))
-          ->GetPen()
-          ->SetLineType(vtkPen::DASH_LINE);
+    const auto [least, most] = *panel.measured;
+    const Pen pen{kGrey, sheet.scaled(3), true};
+    chart.add_line({{low, least}, {high, least}}, pen, "range of measured values");
+    chart.add_line({{low, most}, {high, most}}, pen);
   }
   for (std::size_t k = 0; k < curves.size(); ++k)
-    add_plot(chart, vtkChart::LINE, points_of(curves[k].diameter_um, curves[k].*panel.values),
-             curves[k].label, kColours[k % kColours.size()], canvas.scaled(5));
-  set_axis(chart->GetAxis(vtkAxis::BOTTOM), low, high, canvas);
-  set_axis(chart->GetAxis(vtkAxis::LEFT), 0.0, 1.25 * top, canvas);
-  sheet.write("bridge diameter d (\xC2\xB5m)", area.middle_x(), 0.04);
+    chart.add_line(points_of(curves[k].diameter_um, curves[k].*panel.values),
+                   {kColours[k % kColours.size()], sheet.scaled(5)}, curves[k].label);
+  sheet.add(chart);
+  sheet.write("bridge diameter d (\u00b5m)", area.middle_x(), 0.04);
   sheet.write_upright(panel.quantity, panel.left - 0.075, area.middle_y());
 }
 
 }  // namespace
 
-Image draw_bridge_stiffness(const Display& display, std::span<const StiffnessCurve> curves,
-                            const std::optional<MeasuredStiffness>& measured, PictureSize size) {
-  ChartSheet sheet(display, size);
+Figure stiffness_figure(std::span<const StiffnessCurve> curves,
+                        const std::optional<MeasuredStiffness>& measured, PictureSize size) {
+  Sheet sheet(size);
   Panel normal{0.10, "normal stiffness kn (N/m)", &StiffnessCurve::normal, {}};
   Panel tangential{0.60, "tangential stiffness kt (N/m)", &StiffnessCurve::tangential, {}};
   if (measured) {
@@ -72,7 +67,7 @@ Image draw_bridge_stiffness(const Display& display, std::span<const StiffnessCur
     tangential.measured = {measured->tangential_low, measured->tangential_high};
   }
   for (const Panel* panel : {&normal, &tangential}) add_panel(sheet, curves, *panel);
-  return sheet.draw();
+  return sheet.figure();
 }
 
 }  // namespace pendular::viz

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "viz/display.h"
-#include "viz/image.h"
+#include "viz/figure.h"
 
 namespace pendular::viz {
 
@@ -23,8 +22,8 @@ struct MeasuredStiffness {
 
 /// Two plots side by side as in Fig. 2(e,f) of Hemmerle et al. 2021: kn and kt over the bridge diameter. At
 /// least one curve of at least two points.
-Image draw_bridge_stiffness(const Display& display, std::span<const StiffnessCurve> curves,
-                            const std::optional<MeasuredStiffness>& measured = {},
-                            PictureSize size = {1800, 900});
+Figure stiffness_figure(std::span<const StiffnessCurve> curves,
+                        const std::optional<MeasuredStiffness>& measured = {},
+                        PictureSize size = {1800, 900});
 
 }  // namespace pendular::viz

@@ -56,20 +56,18 @@ Range robust_range(std::span<const double> values, double lower, double upper) {
   return finite.back() > range.low ? Range{range.low, finite.back()} : Range{range.low, range.low + 1.0};
 }
 
-vtkSmartPointer<vtkColorTransferFunction> colours(ColourMap map, Range range) {
+std::vector<std::array<double, 3>> colours_of(ColourMap map) {
   const auto knots = stations(map);
-  auto function = vtkSmartPointer<vtkColorTransferFunction>::New();
   constexpr int kSteps = 64;
+  std::vector<std::array<double, 3>> colours;
   for (int k = 0; k <= kSteps; ++k) {
-    const double t = static_cast<double>(k) / kSteps, u = t * static_cast<double>(knots.size() - 1);
+    const double u = static_cast<double>(k) / kSteps * static_cast<double>(knots.size() - 1);
     const std::size_t first = std::min(static_cast<std::size_t>(u), knots.size() - 2);
     const double w = u - static_cast<double>(first);
     const Lab &p = knots[first], &q = knots[first + 1];
-    const auto rgb = to_rgb({p.l + w * (q.l - p.l), p.a + w * (q.a - p.a), p.b + w * (q.b - p.b)});
-    function->AddRGBPoint(range.low + t * (range.high - range.low), rgb[0], rgb[1], rgb[2]);
+    colours.push_back(to_rgb({p.l + w * (q.l - p.l), p.a + w * (q.a - p.a), p.b + w * (q.b - p.b)}));
   }
-  function->SetNanColor(0.6, 0.6, 0.6);
-  return function;
+  return colours;
 }
 
 }  // namespace pendular::viz

@@ -16,9 +16,12 @@ namespace {
 constexpr int kWidth = 1600;
 constexpr double kMargin = 24.0, kBarRoom = 210.0, kTitleRoom = 84.0, kLeastBar = 260.0;
 constexpr double kRowType = 24.0, kTallestCell = 52.0, kShortestCell = 34.0, kWidestCell = 130.0;
-constexpr double kValueRoom = 52.0;  // width of a cell from which its value is written into it
+constexpr double kValueType = 22.0,
+                 kValueRoom = 52.0;  // width of a cell from which its value is written into it
 constexpr std::size_t kLongestLabel = 44;
-constexpr Rgb kNothing = {232, 232, 232}, kGrid = {255, 255, 255}, kFrame = {20, 20, 20};
+constexpr Colour kNothing = {232, 232, 232}, kFrame = {20, 20, 20}, kInk = {13, 13, 13},
+                 kWhite = {255, 255, 255};
+constexpr double kFrameWidth = 3.0, kGap = 1.0;  // a cell is smaller than its place by this on each side
 
 /// Where the cells are, in pixels from the lower left.
 struct Layout {
@@ -59,88 +62,91 @@ std::string value_label(double value) {
   return std::fabs(value) < 9.95 ? fmt::format("{:.1f}", value) : fmt::format("{:.0f}", value);
 }
 
-/// Draws cells and labels, in pixels.
-class Drawing {
- public:
-  Drawing(ChartSheet& sheet, const Layout& at) : sheet_(sheet), at_(at) {}
+/// A cell in rows and columns from the upper left corner, smaller by so many pixels on each side.
+Rectangle cell(std::size_t row, std::size_t column, const Layout& at, double inset) {
+  const auto x = static_cast<double>(column), y = static_cast<double>(row);
+  const double dx = inset / at.cell_width, dy = inset / at.cell_height;
+  return {x + dx, -(y + 1.0 - dy), x + 1.0 - dx, -(y + dy)};
+}
 
-  /// A cell, `inset` pixels smaller on each side.
-  Box cell(std::size_t row, std::size_t column, std::size_t rows, double inset) const {
-    const double left = at_.left + static_cast<double>(column) * at_.cell_width,
-                 bottom = at_.bottom + static_cast<double>(rows - 1 - row) * at_.cell_height;
-    return {(left + inset) / kWidth, (bottom + inset) / at_.height, (left + at_.cell_width - inset) / kWidth,
-            (bottom + at_.cell_height - inset) / at_.height};
-  }
-  void write(const std::string& words, double x, double y, const TextStyle& style) {
-    sheet_.write(words, x / kWidth, y / at_.height, style);
-  }
-
- private:
-  ChartSheet& sheet_;
-  const Layout& at_;
-};
-
-void draw_cells(ChartSheet& sheet, Drawing& drawing, const Layout& at, const Matrix& matrix,
-                vtkScalarsToColors* map, double end) {
-  const std::size_t m = matrix.rows.size(), n = matrix.columns.size();
-  std::vector<Box> boxes;
-  std::vector<Rgb> rgb;
-  const auto fill = [&](const Box& box, const Rgb& colour) { boxes.push_back(box), rgb.push_back(colour); };
+void add_cells(Chart& chart, const Matrix& matrix, const Layout& at, double end) {
+  std::vector<Rectangle> known, unknown, frames;
+  std::vector<double> values;
   for (std::size_t k = 0; k < matrix.values.size(); ++k) {
-    const std::size_t row = k / n, column = k % n;
-    const double value = matrix.values[k];
+    const std::size_t row = k / matrix.columns.size(), column = k % matrix.columns.size();
     const bool framed = !matrix.framed.empty() && matrix.framed[k];
-    fill(drawing.cell(row, column, m, 0.0), framed ? kFrame : kGrid);
-    Rgb colour = kNothing;
-    if (std::isfinite(value)) {
-      const unsigned char* c = map->MapValue(std::clamp(value, -end, end));
-      colour = {c[0], c[1], c[2]};
+    if (framed) frames.push_back(cell(row, column, at, 0.0));
+    const Rectangle inner = cell(row, column, at, framed ? kFrameWidth : kGap);
+    if (!std::isfinite(matrix.values[k])) {
+      unknown.push_back(inner);
+      continue;
     }
-    fill(drawing.cell(row, column, m, framed ? 3.0 : 1.0), colour);
+    known.push_back(inner);
+    values.push_back(std::clamp(matrix.values[k], -end, end));
   }
-  add_boxes(sheet.renderer(), boxes, rgb);
-  if (at.cell_width < kValueRoom) return;
+  chart.add_boxes(frames, kFrame);
+  chart.add_boxes(unknown, kNothing);
+  chart.add_coloured_boxes(known, values);
+}
+
+void add_values(Chart& chart, const Matrix& matrix, double end) {
   for (std::size_t k = 0; k < matrix.values.size(); ++k) {
     const double value = matrix.values[k];
     if (!std::isfinite(value)) continue;
-    const bool dark = std::fabs(value) > 0.6 * end;
-    drawing.write(value_label(value), at.left + (static_cast<double>(k % n) + 0.5) * at.cell_width,
-                  at.bottom + (static_cast<double>(m - 1 - k / n) + 0.5) * at.cell_height,
-                  {.size = 22, .align = Align::centre, .white = dark});
+    const auto row = static_cast<double>(k / matrix.columns.size()),
+               column = static_cast<double>(k % matrix.columns.size());
+    chart.add_words(value_label(value), column + 0.5, -(row + 0.5), kValueType,
+                    std::fabs(value) > 0.6 * end ? kWhite : kInk);
   }
 }
 
-void draw_labels(Drawing& drawing, const Layout& at, const Matrix& matrix,
-                 const std::vector<std::string>& rows, const std::vector<std::string>& columns) {
+ColourBar bar_of(const Matrix& matrix, const Layout& at, double end) {
+  const double left = at.left + at.cell_width * static_cast<double>(matrix.columns.size()) + 40.0,
+               top = at.height - kMargin - kTitleRoom, bottom = std::min(at.bottom, top - kLeastBar);
+  ColourBar bar{{left / kWidth, bottom / at.height, 30.0 / kWidth, (top - bottom) / at.height},
+                matrix.about_zero ? -end : 0.0,
+                end,
+                {}};
+  const auto byte = [](double share) { return static_cast<unsigned char>(std::lround(255.0 * share)); };
+  for (const auto& [r, g, b] : colours_of(matrix.about_zero ? ColourMap::signed_values : ColourMap::alarm))
+    bar.colours.push_back({byte(r), byte(g), byte(b)});
+  return bar;
+}
+
+void write_labels(Sheet& sheet, const Layout& at, const Matrix& matrix, const std::vector<std::string>& rows,
+                  const std::vector<std::string>& columns) {
   for (std::size_t row = 0; row < rows.size(); ++row)
-    drawing.write(rows[row], at.left - 12.0,
-                  at.bottom + (static_cast<double>(rows.size() - 1 - row) + 0.5) * at.cell_height,
-                  {.size = kRowType,
-                   .bold = !matrix.marked_rows.empty() && matrix.marked_rows[row],
-                   .align = Align::right});
+    sheet.write(rows[row], (at.left - 12.0) / kWidth,
+                (at.bottom + (static_cast<double>(rows.size() - 1 - row) + 0.5) * at.cell_height) / at.height,
+                {.size = kRowType,
+                 .bold = !matrix.marked_rows.empty() && matrix.marked_rows[row],
+                 .align = Align::right});
   for (std::size_t column = 0; column < columns.size(); ++column)
-    drawing.write(columns[column], at.left + (static_cast<double>(column) + 0.5) * at.cell_width,
-                  at.bottom - 12.0, {.size = at.column_type, .align = Align::right, .angle = 90});
+    sheet.write(columns[column], (at.left + (static_cast<double>(column) + 0.5) * at.cell_width) / kWidth,
+                (at.bottom - 12.0) / at.height, {.size = at.column_type, .align = Align::right, .angle = 90});
 }
 
 }  // namespace
 
-Image draw_matrix(const Display& display, const Matrix& matrix) {
+Figure matrix_figure(const Matrix& matrix) {
   const auto rows = short_labels(matrix.rows), columns = short_labels(matrix.columns);
   const Layout at = layout_of(rows, columns);
-  ChartSheet sheet(display, {kWidth, at.height}, 1.0);
-  Drawing drawing(sheet, at);
+  const auto m = static_cast<double>(rows.size()), n = static_cast<double>(columns.size());
   const double end = end_of_scale(matrix);
-  const Range range{matrix.about_zero ? -end : 0.0, end};
-  const auto map = colours(matrix.about_zero ? ColourMap::signed_values : ColourMap::alarm, range);
-  draw_cells(sheet, drawing, at, matrix, map, end);
-  draw_labels(drawing, at, matrix, rows, columns);
-  const double right = at.left + at.cell_width * static_cast<double>(columns.size()) + 40.0,
-               top = at.height - kMargin - kTitleRoom, bottom = std::min(at.bottom, top - kLeastBar);
-  add_colour_bar(sheet.renderer(), sheet.canvas(), "", range, map,
-                 {right / kWidth, bottom / at.height, (right + 30.0) / kWidth, top / at.height});
-  drawing.write(matrix.quantity, right - 20.0, top + 0.7 * kTitleRoom, {.size = kRowType + 2.0});
-  return sheet.draw();
+  const ColourBar bar = bar_of(matrix, at, end);
+  Sheet sheet({kWidth, at.height}, 1.0);
+  Chart chart(
+      {at.left / kWidth, at.bottom / at.height, n * at.cell_width / kWidth, m * at.cell_height / at.height},
+      {0.0, n, 0}, {-m, 0.0, 0});
+  chart.hide_axes();
+  chart.set_colour_bar(bar);
+  add_cells(chart, matrix, at, end);
+  if (at.cell_width >= kValueRoom) add_values(chart, matrix, end);
+  sheet.add(chart);
+  write_labels(sheet, at, matrix, rows, columns);
+  sheet.write(matrix.quantity, bar.area.left - 20.0 / kWidth,
+              bar.area.bottom + bar.area.height + 0.7 * kTitleRoom / at.height, {.size = kRowType + 2.0});
+  return sheet.figure();
 }
 
 }  // namespace pendular::viz

@@ -3,8 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "viz/display.h"
-#include "viz/image.h"
+#include "viz/figure.h"
 
 namespace pendular::viz {
 
@@ -21,6 +20,6 @@ struct Matrix {
 
 /// A cell per value, darker the farther it is from zero and with the value in it where there is room; grey
 /// where there is none; a colour bar at the right. As high as its rows need. At least one row and column.
-Image draw_matrix(const Display& display, const Matrix& matrix);
+Figure matrix_figure(const Matrix& matrix);
 
 }  // namespace pendular::viz

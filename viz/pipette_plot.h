@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "viz/display.h"
-#include "viz/image.h"
+#include "viz/figure.h"
 
 namespace pendular::viz {
 
@@ -23,7 +22,6 @@ struct ForceBranch {
 
 /// Force over displacement: loading, unloading, the fitted lines over their linear ranges. Loading has
 /// points.
-Image draw_force_displacement(const Display& display, const ForceBranch& loading,
-                              const ForceBranch& unloading, PictureSize size = {});
+Figure force_figure(const ForceBranch& loading, const ForceBranch& unloading, PictureSize size = {});
 
 }  // namespace pendular::viz

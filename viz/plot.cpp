@@ -1,9 +1,5 @@
 #include "viz/plot.h"
 
-#include <vtkAxis.h>
-#include <vtkPen.h>
-#include <vtkPlotPoints.h>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,60 +34,55 @@ double stress_at(const RunFolder& run, double strain) {
   return run.stress.back();
 }
 
-/// Broken bonds per bin over [0, largest strain].
-Points break_histogram(const RunFolder& run, double largest) {
+/// Broken bonds per bin over [0, largest strain], as boxes over strain in %.
+std::vector<Rectangle> break_histogram(const RunFolder& run, double largest) {
   const std::size_t bins = static_cast<std::size_t>(std::ceil(largest / kBreakBin)) + 1;
   std::vector<double> counts(bins, 0.0);
   for (double strain : run.break_strain) {
     const double bin = strain / kBreakBin;
     if (bin >= 0.0 && bin < static_cast<double>(bins)) counts[static_cast<std::size_t>(bin)] += 1.0;
   }
-  Points points;
+  std::vector<Rectangle> bars;
   for (std::size_t b = 0; b < bins; ++b)
-    points.emplace_back(100.0 * (static_cast<double>(b) + 0.5) * kBreakBin, counts[b]);
-  return points;
+    if (counts[b] > 0.0)
+      bars.push_back({100.0 * static_cast<double>(b) * kBreakBin, 0.0,
+                      100.0 * static_cast<double>(b + 1) * kBreakBin, counts[b]});
+  return bars;
 }
 
-void add_marks(vtkChartXY* chart, const RunFolder& run, const Canvas& canvas) {
+void add_marks(Chart& chart, const RunFolder& run, const Sheet& sheet) {
   const RunResult& result = run.result;
-  const auto mark = [&](double strain, double stress, const std::string& label, int style, Colour colour) {
-    auto* plot = vtkPlotPoints::SafeDownCast(add_plot(
-        chart, vtkChart::POINTS, {{100.0 * strain, 1e-6 * stress}}, label, colour, canvas.scaled(8)));
-    plot->SetMarkerStyle(style);
-    plot->SetMarkerSize(static_cast<float>(canvas.scaled(20)));
-  };
-  if (result.linear_limit)
-    mark(result.toe + *result.linear_limit, stress_at(run, result.toe + *result.linear_limit),
-         fmt::format("linear limit, {:.2f} % beyond the toe", 100.0 * *result.linear_limit),
-         vtkPlotPoints::DIAMOND, kGreen);
+  if (result.linear_limit) {
+    const double strain = result.toe + *result.linear_limit;
+    chart.add_points({{100.0 * strain, 1e-6 * stress_at(run, strain)}}, kGreen, sheet.scaled(26),
+                     fmt::format("linear limit, {:.2f} % beyond the toe", 100.0 * *result.linear_limit),
+                     Marker::diamond);
+  }
   if (result.peak_strain && result.peak_stress)
-    mark(result.toe + *result.peak_strain, *result.peak_stress,
-         fmt::format("peak, {:.3g} MPa", 1e-6 * *result.peak_stress), vtkPlotPoints::CIRCLE, kRed);
+    chart.add_points({{100.0 * (result.toe + *result.peak_strain), 1e-6 * *result.peak_stress}}, kRed,
+                     sheet.scaled(22), fmt::format("peak, {:.3g} MPa", 1e-6 * *result.peak_stress));
 }
 
 /// From the toe to where the line would pass the highest stress drawn.
-void add_fit(vtkChartXY* chart, const RunResult& result, double highest, const Canvas& canvas) {
+void add_fit(Chart& chart, const RunResult& result, double highest, const Sheet& sheet) {
   if (!result.modulus || !(*result.modulus > 0.0)) return;
   const double toe = result.toe, end = toe + 1.05 * highest / *result.modulus;
-  const Points line = {{100.0 * toe, 0.0}, {100.0 * end, 1.05e-6 * highest}};
-  vtkPlot* plot =
-      add_plot(chart, vtkChart::LINE, line, fmt::format("linear fit, E = {:.3g} MPa", 1e-6 * *result.modulus),
-               kBlack, canvas.scaled(3));
-  plot->GetPen()->SetLineType(vtkPen::DASH_LINE);
+  chart.add_line({{100.0 * toe, 0.0}, {100.0 * end, 1.05e-6 * highest}}, {kBlack, sheet.scaled(3), true},
+                 fmt::format("linear fit, E = {:.3g} MPa", 1e-6 * *result.modulus));
 }
 
 /// Runs after the first, under one entry of the legend.
-void add_other_runs(vtkChartXY* chart, std::span<const RunFolder> runs, const Canvas& canvas) {
+void add_other_runs(Chart& chart, std::span<const RunFolder> runs, const Sheet& sheet) {
   for (std::size_t r = 1; r < runs.size(); ++r) {
     const std::string label =
         r == 1 ? fmt::format("{} more realisation{}", runs.size() - 1, runs.size() > 2 ? "s" : "") : "";
-    add_plot(chart, vtkChart::LINE, curve_of(runs[r]), label, kGrey, canvas.scaled(3));
+    chart.add_line(curve_of(runs[r]), {kGrey, sheet.scaled(3)}, label);
   }
 }
 
 }  // namespace
 
-Image draw_stress_strain(const Display& display, std::span<const RunFolder> runs, PictureSize size) {
+Figure stress_strain_figure(std::span<const RunFolder> runs, PictureSize size) {
   double longest = 0.0, highest = 0.0;
   for (const RunFolder& run : runs) {
     longest = std::max(longest, *std::max_element(run.strain.begin(), run.strain.end()));
@@ -100,40 +91,26 @@ Image draw_stress_strain(const Display& display, std::span<const RunFolder> runs
   if (!(longest > 0.0)) longest = kBreakBin;
   if (!(highest > 0.0)) highest = 1.0;
 
-  ChartSheet sheet(display, size);
-  const Canvas& canvas = sheet.canvas();
-  vtkChartXY* chart = sheet.add_chart(kArea);
-  chart->SetBarWidthFraction(1.0f);
-
+  Sheet sheet(size);
+  Chart chart(kArea, {0.0, 100.0 * longest}, {0.0, 1.5e-6 * highest});
   const RunFolder& first = runs.front();
-  double most = 0.0;
-  const double top = 1.5e-6 * highest;
-  if (!first.break_strain.empty()) {
-    Points bars = break_histogram(first, longest);
-    for (const auto& bar : bars) most = std::max(most, bar.second);
-    // The bars stand on the left axis in its unit, because plots of the right axis would cover the curves.
-    for (auto& bar : bars) bar.second *= top / (kBarHeadroom * most);
-    vtkPlot* plot = add_plot(chart, vtkChart::BAR, bars,
-                             fmt::format("broken bonds per {:.3f} % strain", 100.0 * kBreakBin), kBars, 1);
-    plot->GetPen()->SetOpacity(0);
-  }
-  add_other_runs(chart, runs, canvas);
-  add_plot(chart, vtkChart::LINE, curve_of(first), runs.size() > 1 ? "first realisation" : "simulation",
-           kBlue, canvas.scaled(5));
-  add_fit(chart, first.result, highest, canvas);
-  add_marks(chart, first, canvas);
-
-  set_axis(chart->GetAxis(vtkAxis::BOTTOM), 0.0, 100.0 * longest, canvas);
-  set_axis(chart->GetAxis(vtkAxis::LEFT), 0.0, top, canvas);
-  if (most > 0.0) {
-    chart->SetPlotCorner(add_plot(chart, vtkChart::LINE, {{0.0, 0.0}, {0.0, 0.0}}, "", kBars, 0),
-                         1);  // brings up the right axis
-    set_axis(chart->GetAxis(vtkAxis::RIGHT), 0.0, top, canvas, kBarHeadroom * most / top);
+  const auto bars = break_histogram(first, longest);
+  if (!bars.empty()) {
+    double most = 0.0;
+    for (const Rectangle& bar : bars) most = std::max(most, bar.top);
+    chart.set_right_axis({0.0, kBarHeadroom * most});
+    chart.add_boxes(bars, kBars, fmt::format("broken bonds per {:.3f} % strain", 100.0 * kBreakBin));
     sheet.write_upright("broken bonds per bin", 0.965, kArea.middle_y());
   }
+  add_other_runs(chart, runs, sheet);
+  chart.add_line(curve_of(first), {kBlue, sheet.scaled(5)},
+                 runs.size() > 1 ? "first realisation" : "simulation");
+  add_fit(chart, first.result, highest, sheet);
+  add_marks(chart, first, sheet);
+  sheet.add(chart);
   sheet.write("strain (%)", kArea.middle_x(), 0.042);
   sheet.write_upright("stress (MPa)", 0.032, kArea.middle_y());
-  return sheet.draw();
+  return sheet.figure();
 }
 
 }  // namespace pendular::viz

@@ -3,8 +3,7 @@
 #include <span>
 
 #include "run_folder/run_folder.h"
-#include "viz/display.h"
-#include "viz/image.h"
+#include "viz/figure.h"
 
 namespace pendular::viz {
 
@@ -14,6 +13,6 @@ inline constexpr double kBreakBin = 4.2e-4;
 /// Stress (MPa, left axis) over strain (%), with the linear fit, the end of the linear range and the peak of
 /// the first run marked, and its broken bonds per bin of kBreakBin on the right axis. Further runs are
 /// overlaid as thin lines. At least one run.
-Image draw_stress_strain(const Display& display, std::span<const RunFolder> runs, PictureSize size = {});
+Figure stress_strain_figure(std::span<const RunFolder> runs, PictureSize size = {});
 
 }  // namespace pendular::viz

@@ -10,6 +10,7 @@
 #include "base/progress.h"
 #include "viz/film.h"
 #include "viz/frame.h"
+#include "viz/gnuplot.h"
 #include "viz/plot.h"
 #include "viz/scene.h"
 
@@ -72,22 +73,26 @@ RenderSummary render_run(const fs::path& path, const fs::path& out, const Render
   summary.realisations = runs.size();
   summary.coordination = interior_coordination(first);
   Progress progress("pictures", static_cast<double>(1 + drawn.size() * chosen.size()));
-  const auto keep = [&](const std::string& name, const Image& image, const std::string& caption) {
-    write_png(out / name, image, comment);
+  const auto keep = [&](const std::string& name, const std::string& caption) {
     summary.pictures.push_back({out / name, caption});
     progress.update(static_cast<double>(summary.pictures.size()), name);
     stop_if_interrupted();
   };
-  keep("stress_strain.png", draw_stress_strain(display, runs, options.size),
+  write_figure(stress_strain_figure(runs, options.size),
+               {out / "stress_strain.png", out / "stress_strain.pdf", out / "stress_strain.svg"}, comment);
+  keep("stress_strain.svg",
        "Stress over platen strain with the linear fit, the end of the linear range and the peak; bars: "
        "broken bonds.");
   for (const View& view : chosen)
-    for (const Moment& moment : drawn)
-      keep(
-          view.name + "_" + moment.word + ".png",
-          draw_scene(display, view, moment.frame, stage, colour_range(view, moment.frame, stage),
-                     options.size),
-          fmt::format("{} ({:.2f} % strain). {}", moment.caption, 100.0 * moment.frame.strain, view.caption));
+    for (const Moment& moment : drawn) {
+      const std::string name = view.name + "_" + moment.word + ".png";
+      write_png(out / name,
+                draw_scene(display, view, moment.frame, stage, colour_range(view, moment.frame, stage),
+                           options.size),
+                comment);
+      keep(name, fmt::format("{} ({:.2f} % strain). {}", moment.caption, 100.0 * moment.frame.strain,
+                             view.caption));
+    }
   if (options.film) {
     const View& view = view_named(options.view.empty() ? kFilmView : options.view);
     const ColourRange range = colour_range(view, drawn.back().frame, stage);

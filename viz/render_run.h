@@ -29,9 +29,9 @@ struct RenderSummary {
 };
 
 /// Draws a run folder, or a folder of realisation_* run folders, into `out`: the stress–strain plot
-/// (stress_strain.png; all realisations), and of the first realisation every view of the last frame and of
-/// the frame nearest the peak (NAME_end.png, NAME_peak.png) and the film of local shear strain (film/,
-/// film.mp4), or of the one view asked for. BadInput for what is missing or broken in the run folder.
+/// (stress_strain.png, .pdf and .svg; all realisations), and of the first realisation every view of the last
+/// frame and of the frame nearest the peak (NAME_end.png, NAME_peak.png) and the film of local shear strain
+/// (film/, film.mp4), or of the one view asked for. BadInput for what is missing or broken in the run folder.
 RenderSummary render_run(const fs::path& run, const fs::path& out, const RenderOptions& options = {});
 
 /// A run's section of a report: its figures in a table, and its pictures.

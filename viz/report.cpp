@@ -134,10 +134,12 @@ std::string to_html(const std::vector<std::string>& warnings) {
   return out + "</ul>\n";
 }
 
+/// As an image, in which a browser runs no script and follows no reference, whatever the file holds.
 std::string figure(const ReportPicture& picture) {
+  const char* kind = picture.file.extension() == ".svg" ? "svg+xml" : "png";
   return fmt::format(
-      "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-      escaped(picture.caption), base64(read_text(picture.file)));
+      "<figure><img alt=\"{0}\" src=\"data:image/{1};base64,{2}\"><figcaption>{0}</figcaption></figure>\n",
+      escaped(picture.caption), kind, base64(read_text(picture.file)));
 }
 
 }  // namespace

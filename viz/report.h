@@ -8,7 +8,7 @@
 
 namespace pendular::viz {
 
-/// A picture file (PNG) and what it shows.
+/// A picture file (.png or .svg) and what it shows.
 struct ReportPicture {
   fs::path file;
   std::string caption;

@@ -1,9 +1,5 @@
 #include "viz/row_plot.h"
 
-#include <vtkAxis.h>
-#include <vtkPen.h>
-#include <vtkPlotPoints.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -71,17 +67,12 @@ std::pair<double, double> range_of(const RowPanel& panel, double width) {
   return {low, high};
 }
 
-void add_segment(vtkChartXY* chart, double x0, double y0, double x1, double y1, Colour colour, double width) {
-  add_plot(chart, vtkChart::LINE, {{x0, y0}, {x1, y1}}, "", colour, width);
-}
-
-void add_interval(vtkChartXY* chart, const std::pair<double, double>& interval, double y, Colour colour,
-                  const Canvas& canvas) {
+/// An interval with a stroke across at each end.
+void add_interval(std::vector<Segment>& strokes, const std::pair<double, double>& interval, double y) {
   const auto [low, high] = interval;
   if (!std::isfinite(low) || !std::isfinite(high)) return;
-  const double width = canvas.scaled(4.0);
-  add_segment(chart, low, y, high, y, colour, width);
-  for (const double end : {low, high}) add_segment(chart, end, y - 0.12, end, y + 0.12, colour, width);
+  strokes.push_back({{low, y}, {high, y}});
+  for (const double end : {low, high}) strokes.push_back({{end, y - 0.12}, {end, y + 0.12}});
 }
 
 /// Series `index` of `count` bar series in row `row`; rows count from the top, at heights -0.5, -1.5, …
@@ -90,89 +81,74 @@ double height_of(std::size_t row, std::size_t index, std::size_t count) {
   return -0.5 - static_cast<double>(row) + 0.5 * kBarHeight - part * (static_cast<double>(index) + 0.5);
 }
 
-void add_bars(vtkChartXY* chart, const RowSeries& series, std::size_t index, std::size_t count,
+void add_bars(Chart& chart, const RowSeries& series, std::size_t index, std::size_t count,
               const std::vector<bool>& marked) {
   const double half = 0.47 * kBarHeight / static_cast<double>(count);
-  bool named = false;
+  std::vector<Rectangle> usual, second;
   for (std::size_t row = 0; row < series.values.size(); ++row) {
     const double value = series.values[row], y = height_of(row, index, count);
-    if (!std::isfinite(value)) continue;
-    const std::size_t colour = count == 1 && !marked.empty() && marked[row] ? 1 : index;
-    add_fill(chart, {0.0, value}, {y - half, y - half}, {y + half, y + half}, named ? "" : series.label,
-             kColours[colour % kColours.size()], 255);
-    named = true;
+    const bool is_marked = count == 1 && !marked.empty() && marked[row];
+    (is_marked ? second : usual).push_back({0.0, y - half, value, y + half});
   }
+  chart.add_boxes(usual, kColours[index % kColours.size()]);
+  chart.add_boxes(second, kColours[1]);
 }
 
-void add_points(vtkChartXY* chart, const RowSeries& series, Colour colour, double y_shift,
-                const Canvas& canvas) {
+void add_points(Chart& chart, const RowSeries& series, std::size_t index, std::size_t count, Colour colour,
+                const Sheet& sheet) {
   Points points;
   for (std::size_t row = 0; row < series.values.size(); ++row)
-    if (std::isfinite(series.values[row]))
-      points.emplace_back(series.values[row], y_shift - 0.5 - static_cast<double>(row));
-  if (points.empty()) return;
-  auto* plot = vtkPlotPoints::SafeDownCast(
-      add_plot(chart, vtkChart::POINTS, points, series.label, colour, canvas.scaled(3)));
-  plot->SetMarkerStyle(vtkPlotPoints::CIRCLE);
-  plot->SetMarkerSize(static_cast<float>(canvas.scaled(22)));
+    points.emplace_back(series.values[row], height_of(row, index, count));
+  chart.add_points(points, colour, sheet.scaled(22));
 }
 
-void add_guides(vtkChartXY* chart, const RowPanel& panel, double low, std::size_t rows,
-                const Canvas& canvas) {
+void add_guides(Chart& chart, const RowPanel& panel, double low, std::size_t rows, const Sheet& sheet) {
   const double bottom = -static_cast<double>(rows);
   for (const double value : panel.guides)
-    add_plot(chart, vtkChart::LINE, {{value, bottom}, {value, 0.0}}, "", kGuide, canvas.scaled(3))
-        ->GetPen()
-        ->SetLineType(vtkPen::DASH_LINE);
-  if (low < 0.0) add_segment(chart, 0.0, bottom, 0.0, 0.0, kInk, canvas.scaled(2));
+    chart.add_line({{value, bottom}, {value, 0.0}}, {kGuide, sheet.scaled(3), true});
+  if (low < 0.0) chart.add_line({{0.0, bottom}, {0.0, 0.0}}, {kInk, sheet.scaled(2)});
 }
 
-void add_series(vtkChartXY* chart, const RowPanel& panel, const std::vector<bool>& marked,
-                const Canvas& canvas) {
+void add_series(Chart& chart, const RowPanel& panel, const std::vector<bool>& marked, const Sheet& sheet) {
   const auto is_bar = [](const RowSeries& series) { return series.look == RowSeries::Look::bars; };
   const auto bars = static_cast<std::size_t>(std::count_if(panel.series.begin(), panel.series.end(), is_bar));
   const std::size_t points = panel.series.size() - bars;
   std::size_t bar = 0, point = 0;
   for (const RowSeries& series : panel.series) {
-    const bool one_bar = is_bar(series) && bars > 0;
-    const std::size_t index = one_bar ? bar++ : point++, count = one_bar ? bars : points;
+    const std::size_t index = is_bar(series) ? bar++ : point++, count = is_bar(series) ? bars : points;
     const Colour colour = kColours[index % kColours.size()];
-    if (one_bar) add_bars(chart, series, index, count, marked);
+    if (is_bar(series)) add_bars(chart, series, index, count, marked);
+    std::vector<Segment> strokes;
     for (std::size_t row = 0; row < series.intervals.size(); ++row)
-      add_interval(chart, series.intervals[row], height_of(row, index, count), one_bar ? kInk : colour,
-                   canvas);
-    if (!one_bar) add_points(chart, series, colour, height_of(0, index, count) + 0.5, canvas);
+      add_interval(strokes, series.intervals[row], height_of(row, index, count));
+    chart.add_segments(strokes, {is_bar(series) ? kInk : colour, sheet.scaled(4)});
+    if (!is_bar(series)) add_points(chart, series, index, count, colour, sheet);
   }
 }
 
 /// Lines of a swatch and words above a panel.
-void add_legend(ChartSheet& sheet, const RowPanel& panel, const Layout& at, double left) {
+void write_legend(Sheet& sheet, const RowPanel& panel, const Layout& at, double left) {
   double y = at.height - kMargin - 0.5 * kLegendLine;
   std::size_t index = 0;
   for (const RowSeries& series : panel.series) {
-    const Colour& c = kColours[index++ % kColours.size()];
+    const Colour colour = kColours[index++ % kColours.size()];
     if (series.label.empty()) continue;
-    add_boxes(sheet.renderer(),
-              {{left / kWidth, (y - 10.0) / at.height, (left + 34.0) / kWidth, (y + 10.0) / at.height}},
-              {{c.r, c.g, c.b}});
+    sheet.fill({left / kWidth, (y - 10.0) / at.height, 34.0 / kWidth, 20.0 / at.height}, colour);
     sheet.write(series.label, (left + 46.0) / kWidth, y / at.height, {.size = kRowType / kZoom});
     y -= kLegendLine;
   }
 }
 
-void add_panel(ChartSheet& sheet, const RowPlot& plot, const RowPanel& panel, const Layout& at, double left,
+void add_panel(Sheet& sheet, const RowPlot& plot, const RowPanel& panel, const Layout& at, double left,
                double width) {
-  const Canvas& canvas = sheet.canvas();
   const auto n = static_cast<double>(plot.labels.size());
   const Area area{left / kWidth, kBelow / at.height, width / kWidth, n * at.row / at.height};
-  vtkChartXY* chart = sheet.add_chart(area);
   const auto [low, high] = range_of(panel, width);
-  set_axis(chart->GetAxis(vtkAxis::BOTTOM), low, high, canvas);
-  set_bare_axis(chart->GetAxis(vtkAxis::LEFT), -n, 0.0, canvas);
-  add_guides(chart, panel, low, plot.labels.size(), canvas);
-  add_series(chart, panel, plot.marked, canvas);
-  chart->SetShowLegend(false);
-  add_legend(sheet, panel, at, left);
+  Chart chart(area, {low, high}, {-n, 0.0, 0});
+  add_guides(chart, panel, low, plot.labels.size(), sheet);
+  add_series(chart, panel, plot.marked, sheet);
+  sheet.add(chart);
+  write_legend(sheet, panel, at, left);
   sheet.write(panel.title, area.middle_x(), 0.32 * kBelow / at.height, {.size = 34, .align = Align::centre});
   for (std::size_t row = 0; row < panel.notes.size(); ++row)
     sheet.write(panel.notes[row], (left + width - 8.0) / kWidth,
@@ -182,11 +158,11 @@ void add_panel(ChartSheet& sheet, const RowPlot& plot, const RowPanel& panel, co
 
 }  // namespace
 
-Image draw_rows(const Display& display, const RowPlot& plot) {
+Figure row_figure(const RowPlot& plot) {
   std::vector<std::string> labels;
   for (const std::string& label : plot.labels) labels.push_back(wrapped(label, kLongestLine, kMostLines));
   const Layout at = layout_of(plot, labels);
-  ChartSheet sheet(display, {kWidth, at.height}, kZoom);
+  Sheet sheet({kWidth, at.height}, kZoom);
   const auto count = static_cast<double>(plot.panels.size());
   const double width = (kWidth - kMargin - 20.0 - at.left - (count - 1.0) * kBetween) / count;
   for (std::size_t k = 0; k < plot.panels.size(); ++k)
@@ -196,7 +172,7 @@ Image draw_rows(const Display& display, const RowPlot& plot) {
         labels[row], (at.left - 14.0) / kWidth,
         (kBelow + (static_cast<double>(labels.size() - row) - 0.5) * at.row) / at.height,
         {.size = kRowType / kZoom, .bold = !plot.marked.empty() && plot.marked[row], .align = Align::right});
-  return sheet.draw();
+  return sheet.figure();
 }
 
 }  // namespace pendular::viz

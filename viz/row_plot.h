@@ -4,8 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "viz/display.h"
-#include "viz/image.h"
+#include "viz/figure.h"
 
 namespace pendular::viz {
 
@@ -35,6 +34,6 @@ struct RowPlot {
 };
 
 /// As high as its rows need. At least one row and one panel.
-Image draw_rows(const Display& display, const RowPlot& plot);
+Figure row_figure(const RowPlot& plot);
 
 }  // namespace pendular::viz

@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "viz/display.h"
-#include "viz/image.h"
+#include "viz/figure.h"
 
 namespace pendular::viz {
 
@@ -25,7 +24,7 @@ struct SeriesAxis {
 
 /// Series over one pair of axes that hold all of them; linear axes start at zero where all values are
 /// positive. At least one series with a value that can be shown.
-Image draw_series(const Display& display, std::span<const Series> series, const SeriesAxis& x,
-                  const SeriesAxis& y, PictureSize size = {1200, 900});
+Figure series_figure(std::span<const Series> series, const SeriesAxis& x, const SeriesAxis& y,
+                     PictureSize size = {1200, 900});
 
 }  // namespace pendular::viz

@@ -88,6 +88,19 @@ TEST(Bridge, DrawsThePapersFigureTheSameForAnyNumberOfThreads) {
   }
 }
 
+TEST(Bridge, DrawsWithoutAnXServer) {
+  ScratchFolder folder;
+  const Outcome outcome =
+      shell(folder.path(),
+            "mkdir bin && ln -s $(command -v gnuplot) bin/gnuplot && "
+            "env -u DISPLAY PATH=$PWD/bin $P bridge --d-um 50,60 --plot a.svg -o a.csv && "
+            "rm bin/gnuplot && env -u DISPLAY PATH=$PWD/bin $P bridge --d-um 50,60 --plot b.pdf");
+  EXPECT_NE(read_text(folder / "a.svg").find("bridge diameter d"), std::string::npos) << outcome.errors;
+  EXPECT_EQ(outcome.status, 4) << "without gnuplot";
+  EXPECT_NE(outcome.errors.find("package gnuplot-nox"), std::string::npos) << outcome.errors;
+  EXPECT_FALSE(fs::exists(folder / "b.pdf"));
+}
+
 TEST(Bridge, WarnsOutsideTheVerifiedRange) {
   ScratchFolder folder;
   const Outcome outside = shell(folder.path(), "$P bridge --d-um 10,73.9 -o out.csv");
@@ -150,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(Table, BadBridgeCommand,
                                          BadBridge{"UnknownKey", "typo.toml", 3, "bridges.diameter_um"},
                                          BadBridge{"PaperAndValues", "--paper --nu 0.3", 2, "--paper"},
                                          BadBridge{"PlotOfOnePoint", "--d-um 50 --plot a.png", 3, "--plot"},
-                                         BadBridge{"PlotNotPng", "--plot a.svg", 2, "a.svg"},
+                                         BadBridge{"PlotOfNoFormat", "--plot a.gif", 2, "a.gif"},
                                          BadBridge{"NoFolder", "--plot absent/a.png", 3, "absent"}),
                          [](const auto& test) { return test.param.name; });
 

@@ -55,7 +55,7 @@ TEST(PipetteCommand, WritesWhatThePageSaysWhateverTheThreads) {
   EXPECT_LT(json.at("interval_90")[0], k);
   EXPECT_GT(json.at("linear_range_um")[1], 3.0);
   EXPECT_EQ(json.at("rejected")[0].at("frame"), 9);
-  for (const char* name : {"a.png", "look/scene.png", "look/tracks.png", "film.avi"})
+  for (const char* name : {"a.png", "a.pdf", "look/scene.png", "look/tracks.png", "film.avi"})
     EXPECT_GT(fs::file_size(folder / name), 1000u) << name;
   // The film is itself a video that can be read; its frames are larger than the regions say, so no bead is
   // there.
@@ -111,7 +111,7 @@ TEST_P(BadPipetteTest, GivesOneLineAndTheRightStatus) {
   EXPECT_EQ(outcome.status, bad.status) << outcome.errors;
   EXPECT_NE(outcome.errors.find(bad.expected), std::string::npos) << outcome.errors;
   EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
-  for (const char* name : {"out.csv", "out.json", "out.png"}) EXPECT_FALSE(fs::exists(folder / name)) << name;
+  for (const char* name : {"out.csv", "out.json", "out.png", "out.pdf"}) EXPECT_FALSE(fs::exists(folder / name)) << name;
 }
 
 INSTANTIATE_TEST_SUITE_P(

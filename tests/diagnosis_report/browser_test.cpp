@@ -69,10 +69,7 @@ Seen open_in_browser(const test::ScratchFolder& scratch, std::string html) {
 TEST(ReportInBrowser, RendersWithoutErrors) {
   SKIP_WITHOUT_CHROMIUM();
   const test::ScratchFolder scratch;
-  {
-    const viz::Display display;
-    diagnosis_report::write_report_folder({scratch / "report", display}, test::planted_diagnosis());
-  }
+  diagnosis_report::write_report_folder(scratch / "report", test::planted_diagnosis());
   const Seen seen = open_in_browser(scratch, read_text(scratch / "report" / "report.html"));
   EXPECT_EQ(seen.log, "");
   ASSERT_TRUE(seen.page.is_object());

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 
 #include "base/csv.h"
+#include "base/error.h"
 #include "documented.h"
 #include "planted_diagnosis.h"
 #include "scratch.h"
@@ -32,7 +34,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 void expect_refers_to_nothing_outside(const std::string& html) {
   EXPECT_EQ(html.find("<script"), std::string::npos);
-  EXPECT_FALSE(std::regex_search(html, std::regex("(src|href)=(?!\"data:image/png;base64,)")));
+  EXPECT_FALSE(std::regex_search(html, std::regex("(src|href)=(?!\"data:image/(png|svg\\+xml);base64,)")));
   EXPECT_EQ(html.find("<link"), std::string::npos);
   EXPECT_EQ(html.find("url("), std::string::npos);
   EXPECT_EQ(html.find("@import"), std::string::npos);
@@ -58,9 +60,8 @@ void expect_bands_hold_the_mean(const fs::path& path, const std::string& name) {
 
 TEST(ReportFolder, HasAFigureWithItsDataForEverythingThatIsKnown) {
   const test::ScratchFolder scratch;
-  const viz::Display display;
   const auto diagnosis = test::planted_diagnosis();
-  write_report_folder({scratch.path(), display}, diagnosis);
+  write_report_folder(scratch.path(), diagnosis);
 
   const std::set<std::string> figures = names_in(scratch.path(), ".png"),
                               tables = names_in(scratch.path(), ".csv");
@@ -69,6 +70,8 @@ TEST(ReportFolder, HasAFigureWithItsDataForEverythingThatIsKnown) {
                                             "magnitude_bridge_diameter_spread", "signatures", "separation",
                                             "pulls", "goodness", "shrinkage", "next_experiments"}));
   for (const auto& name : figures) EXPECT_TRUE(tables.contains(name)) << name;
+  EXPECT_EQ(names_in(scratch.path(), ".pdf"), figures);
+  EXPECT_EQ(names_in(scratch.path(), ".svg"), figures);
   for (const char* name : {"overlay_1_A_runs", "gap_shares", "noise_budget", "excluded", "ledger"})
     EXPECT_TRUE(tables.contains(name)) << name;
 
@@ -98,8 +101,7 @@ TEST(ReportFolder, HasAFigureWithItsDataForEverythingThatIsKnown) {
 
 TEST(ReportFolder, TablesHaveTheColumnsOfThePage) {
   const test::ScratchFolder scratch;
-  const viz::Display display;
-  write_report_folder({scratch.path(), display}, test::planted_diagnosis());
+  write_report_folder(scratch.path(), test::planted_diagnosis());
   for (auto row : test::documented_rows("Tables of a report")) {
     std::string name = row.front();
     if (const auto at = name.find("EFFECT"); at != std::string::npos)
@@ -111,8 +113,7 @@ TEST(ReportFolder, TablesHaveTheColumnsOfThePage) {
 
 TEST(ReportFolder, OfADiagnosisThatFoundNothingSaysSo) {
   const test::ScratchFolder scratch;
-  const viz::Display display;
-  write_report_folder({scratch / "a", display}, test::quiet_diagnosis());
+  write_report_folder(scratch / "a", test::quiet_diagnosis());
   EXPECT_EQ(names_in(scratch / "a", ".png"),
             (std::set<std::string>{"gap_map", "gap", "overlay_1_A", "hypotheses", "goodness"}));
   const std::string html = read_text(scratch / "a" / "report.html");
@@ -120,24 +121,40 @@ TEST(ReportFolder, OfADiagnosisThatFoundNothingSaysSo) {
   EXPECT_NE(html.find("None is excluded."), std::string::npos);
   expect_refers_to_nothing_outside(html);
 
-  write_report_folder({scratch / "b", display}, test::quiet_diagnosis());
+  write_report_folder(scratch / "b", test::quiet_diagnosis());
   EXPECT_EQ(sha256_of(scratch / "a"), sha256_of(scratch / "b"));
+}
+
+TEST(ReportFolder, NeedsNoDisplayForChartsAndKeepsTheNumbersWithoutGnuplot) {
+  const test::ScratchFolder scratch;
+  const char* display = std::getenv("DISPLAY");
+  const std::string path = std::getenv("PATH"), former = display != nullptr ? display : "";
+  ::unsetenv("DISPLAY");
+  fs::create_directory(scratch / "bin");
+  fs::create_symlink("/usr/bin/gnuplot", scratch / "bin/gnuplot");
+  ::setenv("PATH", (scratch / "bin").c_str(), 1);
+  EXPECT_NO_THROW(write_report_folder(scratch / "a", test::quiet_diagnosis()));
+  fs::remove(scratch / "bin/gnuplot");
+  EXPECT_THROW(write_report_folder(scratch / "b", test::quiet_diagnosis()), ComputationFailed);
+  ::setenv("PATH", path.c_str(), 1);
+  if (!former.empty()) ::setenv("DISPLAY", former.c_str(), 1);
+  EXPECT_TRUE(fs::exists(scratch / "b/diagnosis.json"));
+  EXPECT_TRUE(fs::exists(scratch / "b/gap.csv"));
+  EXPECT_FALSE(fs::exists(scratch / "b/report.html"));
 }
 
 TEST(ReportFolder, NothingAtAllIsAReportToo) {
   const test::ScratchFolder scratch;
-  const viz::Display display;
-  write_report_folder({scratch.path(), display}, diagnosis::Diagnosis{});
+  write_report_folder(scratch.path(), diagnosis::Diagnosis{});
   EXPECT_TRUE(names_in(scratch.path(), ".png").empty());
   EXPECT_NE(read_text(scratch / "report.html").find("No features could be compared."), std::string::npos);
 }
 
 TEST(ReportFolder, EscapesEveryTextAndNamesFilesSafely) {
   const test::ScratchFolder scratch;
-  const viz::Display display;
   const std::string nasty = "../<b title=\"x\">R&D, 'n' #1</b>\nnext";
   const auto diagnosis = test::named_throughout(nasty);
-  write_report_folder({scratch / "out", display}, diagnosis);
+  write_report_folder(scratch / "out", diagnosis);
   const std::string html = read_text(scratch / "out" / "report.html");
   EXPECT_EQ(html.find("<b "), std::string::npos);
   EXPECT_EQ(html.find("R&D"), std::string::npos);
@@ -145,7 +162,7 @@ TEST(ReportFolder, EscapesEveryTextAndNamesFilesSafely) {
   expect_refers_to_nothing_outside(html);
   for (const auto& entry : fs::directory_iterator(scratch / "out"))
     EXPECT_TRUE(std::regex_match(entry.path().filename().string(),
-                                 std::regex("[A-Za-z0-9_-]+\\.(png|csv|html|json)")))
+                                 std::regex("[A-Za-z0-9_-]+\\.(png|pdf|svg|csv|html|json)")))
         << entry.path();
   const auto report = nlohmann::json::parse(read_text(scratch / "out" / "diagnosis.json"));
   EXPECT_EQ(report["verdict"], nasty);

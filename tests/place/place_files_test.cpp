@@ -34,11 +34,10 @@ TEST(PlaceFiles, ParaViewFileIsReadBackWithBothFields) {
 }
 
 TEST(PlaceFiles, PicturesAreDrawnWithTheirTable) {
-  const viz::Display display;
-  const auto figures = place_figures(display, {three_beads()});
+  const auto figures = place_figures({three_beads()});
   ASSERT_EQ(figures.size(), 2u);
   for (const auto& figure : figures) {
-    EXPECT_EQ(figure.image.width, 1600);
+    EXPECT_EQ(std::get<viz::Image>(figure.picture).width, 1600);
     EXPECT_EQ(figure.data.rows.size(), 3u);
     EXPECT_FALSE(figure.caption.empty());
   }

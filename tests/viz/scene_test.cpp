@@ -11,7 +11,6 @@
 #include "base/error.h"
 #include "planted_run.h"
 #include "scratch.h"
-#include "viz/plot.h"
 #include "viz/ticks.h"
 
 namespace pendular {
@@ -209,39 +208,6 @@ TEST_F(Scene, UnknownViewNamesTheKnownOnes) {
   } catch (const BadInput& error) {
     EXPECT_NE(std::string(error.what()).find("shear_strain"), std::string::npos);
   }
-}
-
-TEST_F(Scene, PlotPutsThePeakWhereTheCurveIsHighest) {
-  const Image image = viz::draw_stress_strain(*display_, std::span(&run_, 1), kSize);
-  double red_x = 0.0, red_y = 0.0, reds = 0.0;
-  int top_blue = image.height;
-  for (int y = static_cast<int>(0.25 * image.height); y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      const auto [r, g, b] = image.pixel(x, y);
-      if (r > 150 && g < 80 && b < 80) red_x += x, red_y += y, reds += 1.0;
-      if (b > 130 && r < 80) top_blue = std::min(top_blue, y);
-    }
-  ASSERT_GT(reds, 10.0);
-  EXPECT_NEAR(red_y / reds, top_blue, 8.0);
-  // The strain axis runs over 0.77 of the picture from 0.11; the peak is at toe + 4.4 % of 8 %.
-  EXPECT_NEAR(red_x / reds / image.width, 0.11 + 0.77 * (planted_.toe + 0.044) / 0.08, 0.01);
-}
-
-TEST_F(Scene, PlotShowsBarsOnlyWhereBondsBroke) {
-  const auto bars = [&](const RunFolder& run) {
-    const Image image = viz::draw_stress_strain(*display_, std::span(&run, 1), kSize);
-    int count = 0;
-    for (int y = image.height / 2; y < image.height; ++y)
-      for (int x = 0; x < image.width; ++x) {
-        const auto [r, g, b] = image.pixel(x, y);
-        count += r > 220 && g > 170 && g < 210 && b < 160;
-      }
-    return count;
-  };
-  EXPECT_GT(bars(run_), 1000);
-  RunFolder intact = run_;
-  intact.break_strain.clear();
-  EXPECT_EQ(bars(intact), 0);
 }
 
 TEST(Ticks, AreRoundAndInside) {
