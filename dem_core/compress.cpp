@@ -11,6 +11,7 @@
 #include "dem_core/drive/platen_program.h"
 #include "dem_core/drive/relaxation.h"
 #include "dem_core/drive/specimen_check.h"
+#include "dem_core/observe/avalanches.h"
 #include "dem_core/observe/frame.h"
 #include "dem_core/observe/lateral_strain.h"
 #include "dem_core/observe/quasi_static.h"

@@ -86,7 +86,7 @@ class Arrays {
   std::string worker_in_words() const {
     const fs::path& program = options_.worker.program;
     std::string words = quoted(program.has_parent_path() ? fs::canonical(program) : program);
-    for (const auto& word : options_.worker.words) words += ' ' + quoted(word);
+    for (const auto& word : options_.worker.words) words += " " + quoted(fs::path(word));
     return words;
   }
 

@@ -56,13 +56,12 @@ std::vector<double> magnitudes_of(const effects::Effect& effect, int levels, con
 }
 
 /// Why an effect cannot act in any of these tests; empty where it can.
-std::string why_inert(const effects::Effect& effect, const std::vector<Condition>& conditions) {
-  std::string why;
-  for (const auto& condition : conditions) {
-    why = effect.inert_in ? effect.inert_in(condition.sample) : "";
-    if (why.empty()) break;
-  }
-  return why;
+std::string why_inert(const effects::Effect& effect, const Sample& believed,
+                      const std::vector<Condition>& conditions) {
+  if (!effect.inert_in) return "";
+  for (const auto& condition : conditions)
+    if (effect.inert_in(condition.sample).empty()) return "";
+  return effect.inert_in(conditions.empty() ? believed : conditions.front().sample);
 }
 
 /// A specimen of the same shape with fewer beads.
@@ -92,7 +91,7 @@ class Planner {
     }
     for (const auto& effect : effects::all_effects()) {
       if (options_.leave_out.contains(effect.id)) plan_.absent[effect.id] = "left out as asked";
-      if (const std::string why = why_inert(effect, plan_.conditions); !why.empty())
+      if (const std::string why = why_inert(effect, experiment_.sample, plan_.conditions); !why.empty())
         plan_.absent.emplace(effect.id, why);
       if (!plan_.absent.contains(effect.id) && !effect.reads_only()) add_effect(effect, scanned);
     }

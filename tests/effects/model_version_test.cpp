@@ -23,11 +23,12 @@ using Row = std::array<double, 5>;
 void add(std::map<std::string, std::vector<Row>>& runs, const std::string& name, const Packing& packing,
          Sample sample) {
   sample.compression.frames = 0;
-  sample.compression.max_strain = 0.01;
+  sample.compression.max_strain = 0.005;
   if (sample.compression.control == Control::speed) sample.compression.speed = 1e-3;
-  sample.compression.rows_per_strain = 1000.0;
+  sample.compression.rows_per_strain = 2000.0;
   for (const auto& r : run(packing, sample, 5).rows)
-    runs[name].push_back({r.strain, r.stress, r.broken_bonds, r.elastic, r.lateral_strain});
+    runs[name].push_back({r.strain, r.stress, r.broken_bonds, r.elastic,
+                          std::isfinite(r.lateral_strain) ? r.lateral_strain : -1.0});
 }
 
 /// What the model makes: a generated packing, the paper's model, its variants, and every effect by itself.
@@ -39,7 +40,7 @@ std::map<std::string, std::vector<Row>> computed() {
   for (const auto& bead : generate_packing(sample, 3).beads)
     runs["packing"].push_back({bead.centre.x(), bead.centre.y(), bead.centre.z(), bead.diameter, 0.0});
 
-  const Packing packing = disordered(3, 4);
+  const Packing packing = disordered(3, 3);
   Sample strong = sample_a(), weak = sample_a(), drawn = sample_a(), relaxed = sample_a(), one = sample_a();
   add(runs, "driven", packing, strong);
   weak.bridges.interfacial_energy = 0.01;
@@ -52,7 +53,7 @@ std::map<std::string, std::vector<Row>> computed() {
   one.contact.bond_friction_limit = !one.contact.bond_friction_limit;
   add(runs, "other_law", packing, one);
   for (const auto& effect : all_effects()) {
-    Sample with = sample_a();
+    Sample with = weak;  // so that bonds break
     with.bridges.polymer_content = 0.04;
     with.effects[effect.id] = 0.5 * effect.bank_to;
     add(runs, effect.id, packing, with);
@@ -68,7 +69,8 @@ std::string text_of(const std::map<std::string, std::vector<Row>>& runs) {
 }
 
 std::map<std::string, std::vector<Row>> stored() {
-  const CsvTable table = read_csv(kStored, {"run", "strain", "stress_pa", "broken_bonds", "elastic_j"});
+  const CsvTable table =
+      read_csv(kStored, {"run", "strain", "stress_pa", "broken_bonds", "elastic_j", "lateral_strain"});
   const auto names = table.texts("run");
   std::map<std::string, std::vector<Row>> runs;
   for (std::size_t k = 0; k < table.rows(); ++k) runs[names[k]].emplace_back();
