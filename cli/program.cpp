@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kChain =
     R"(pendular segment scan.mha --voxel-um 5 -o beads.csv         a tomogram to beads (and bridges)
 pendular pack beads.csv --sample s.toml -o packing.vtp      beads to a packing with its statistics
-pendular compress packing.vtp --sample s.toml -o run/       uniaxial compression by discrete elements
+pendular compress packing.vtp --sample s.toml -o run/       uniaxial compression, discrete elements
 pendular render run/ -o pictures/                           shear band, stress-strain curve, film
 pendular diagnose experiment.toml -o report/                why simulation and experiment differ
 

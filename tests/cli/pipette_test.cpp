@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "base/csv.h"
 #include "base/files.h"
 #include "documented.h"
+#include "picture.h"
+#include "pipette/frames.h"
 #include "pipette/phantom.h"
 #include "program.h"
 #include "scratch.h"
@@ -55,8 +58,22 @@ TEST(PipetteCommand, WritesWhatThePageSaysWhateverTheThreads) {
   EXPECT_LT(json.at("interval_90")[0], k);
   EXPECT_GT(json.at("linear_range_um")[1], 3.0);
   EXPECT_EQ(json.at("rejected")[0].at("frame"), 9);
-  for (const char* name : {"a.png", "a.pdf", "look/scene.png", "look/tracks.png", "film.avi"})
-    EXPECT_GT(fs::file_size(folder / name), 1000u) << name;
+  EXPECT_GT(test::drawn_share(test::picture(folder / "a.png")), 0.005);
+  EXPECT_TRUE(read_text(folder / "a.pdf").starts_with("%PDF-"));
+  // The outlines of both beads are where the phantom drew them, four pixels to one of a frame.
+  const cv::Mat scene = test::picture(folder / "look" / "scene.png");
+  for (const auto& colour : {cv::Vec3b(190, 110, 20), cv::Vec3b(0, 120, 240)}) {
+    cv::Point2f centre;
+    float radius = 0.0f;
+    cv::minEnclosingCircle(test::pixels_of(scene, colour, 10), centre, radius);
+    // Marks on the edge are 0.7 pixels in radius.
+    EXPECT_NEAR(radius / 4.0, 0.5 * phantom.bead_diameter + 0.7, 0.6);
+  }
+  EXPECT_EQ(test::picture(folder / "look" / "tracks.png").cols, 2 * scene.cols);
+  pipette::FrameSource film(folder / "film.avi");
+  int frames = 0;
+  while (film.next()) ++frames;
+  EXPECT_EQ(frames, 60);
   // The film is itself a video that can be read; its frames are larger than the regions say, so no bead is
   // there.
   EXPECT_EQ(shell(folder.path(), "$P pipette film.avi --calibration cal.toml -o c.csv").status, 3);

@@ -2,6 +2,7 @@
 
 #include "base/csv.h"
 #include "base/files.h"
+#include "picture.h"
 #include "program.h"
 #include "sample_file.h"
 #include "scratch.h"
@@ -62,7 +63,7 @@ TEST(Reproduce, MakesTheReportWithEveryFigureAndItsTable) {
         Case{"modulus_of_content", {"W", "modulus_pa", "kn_n_per_m"}},
         Case{"volume_fraction", {"volume_fraction", "strain", "stress_pa"}}}) {
     EXPECT_NE(report.find(std::string("(") + file + ".png)"), std::string::npos) << file;
-    EXPECT_GT(fs::file_size(out / (std::string(file) + ".png")), 1000u) << file;
+    EXPECT_GT(test::drawn_share(test::picture(out / (std::string(file) + ".png"))), 0.005) << file;
     const CsvTable table = read_csv(out / (std::string(file) + ".csv"), columns);
     EXPECT_GE(table.rows(), 3u) << file;
     for (const auto& column : columns) EXPECT_EQ(table.numbers(column).size(), table.rows());

@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "packing/polydata.h"
 #include "packing/tables.h"
+#include "picture.h"
 #include "program.h"
 #include "scratch.h"
 #include "small_sample.h"
@@ -89,7 +90,11 @@ TEST(Track, FollowsTheBeadsOfACompressedSpecimen) {
   for (const double sigma : table.numbers("sigma_um"))
     EXPECT_NEAR(sigma, 0.2 * std::hypot(1.0, 1.0 / 1.013), 1e-4);
   EXPECT_EQ(table.numbers("strain").front(), 0.02);
-  EXPECT_GT(fs::file_size(folder / "pictures/shear_strain.png"), 5000u);
+  for (const char* name : {"shear_strain", "displacement_cut"}) {
+    const double drawn = test::drawn_share(test::picture(folder / "pictures" / (std::string(name) + ".png")));
+    EXPECT_GT(drawn, 0.15) << name;
+    EXPECT_LT(drawn, 0.9) << name;
+  }
 
   const auto json = nlohmann::json::parse(content(folder / "track.json"));
   EXPECT_EQ(json["matched"].get<std::size_t>(), before.size());

@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 
 #include <fstream>
+#include <opencv2/core.hpp>
+#include <set>
 
 #include "balls.h"
 #include "base/error.h"
@@ -11,6 +13,7 @@
 #include "packing/bridges.h"
 #include "packing/generate.h"
 #include "phantom/phantom.h"
+#include "picture.h"
 #include "scratch.h"
 #include "segmentation/qa/qa.h"
 #include "volume/resample.h"
@@ -118,11 +121,55 @@ TEST(Segment, LabelsBelongToTheNearestBall) {
     const double half_way = radius - 1.0 / radius;  // the blur of 1 voxel draws the half-way level in by s²/R
     EXPECT_NEAR(count / (4.0 / 3.0 * M_PI * std::pow(half_way, 3)), 1.0, 0.015);
   }
+}
+
+/// Of a circle in a slice's picture, the share that is drawn in green.
+double drawn_in_green(const cv::Mat& image, double scale, double height, const Vec3& centre, double radius) {
+  int drawn = 0;
+  for (int k = 0; k < 64; ++k) {
+    const double x = centre.x() + radius * std::cos(M_PI * k / 32.0),
+                 y = centre.y() + radius * std::sin(M_PI * k / 32.0);
+    drawn += test::shows(image, (x + 0.5) * scale - 0.5, (height - 0.5 - y) * scale - 0.5, {60, 220, 60}, 60);
+  }
+  return drawn / 64.0;
+}
+
+TEST(Segment, PicturesShowWhatWasFound) {
+  const double level = 21.0;  // of the middle slice
+  const std::vector<test::TrueBall> balls = {
+      {Vec3(20, 20, 20.2), 9.0}, {Vec3(40, 20, 21), 10.0}, {Vec3(30, 38, 22), 9.5}};
+  const Volume volume = test::ball_volume({60, 60, 44}, balls, 1.0, 0.05);
+  const Segmentation found = segment(volume);
+  ASSERT_EQ(found.beads.size(), 3u);
   const test::ScratchFolder folder;
   write_qa(folder.path(), volume, found);
-  for (const char* name :
-       {"slice_xy_1.png", "slice_xz_3.png", "residual_xy.png", "fractional_positions.png", "diameters.png"})
-    EXPECT_GT(fs::file_size(folder / name), 500u) << name;
+
+  const cv::Mat slice = test::picture(folder / "slice_xy_2.png");
+  ASSERT_EQ(slice.size(), cv::Size(900, 900));
+  for (const auto& ball : balls) {
+    const double cut = std::sqrt(ball.radius * ball.radius - std::pow(ball.centre.z() - level, 2));
+    EXPECT_GT(drawn_in_green(slice, 15.0, 60.0, ball.centre, cut), 0.95);
+    EXPECT_LT(drawn_in_green(slice, 15.0, 60.0, ball.centre, cut - 2.0), 0.05);
+  }
+
+  // What beads leave is noise of 0.05 about the middle grey: the grey scale spans two contrasts.
+  cv::Scalar mean, sd;
+  cv::meanStdDev(test::picture(folder / "residual_xy.png"), mean, sd);
+  EXPECT_NEAR(mean[0], 127.5, 2.0);
+  EXPECT_NEAR(sd[0], 0.05 * 127.5, 1.5);
+
+  // A bar for each twentieth of a voxel in which a centre lies.
+  std::size_t bars = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::set<int> occupied;
+    for (const Bead& bead : found.beads) {
+      const double voxel = (bead.centre[axis] - volume.origin[axis]) / volume.spacing;
+      occupied.insert(static_cast<int>(20.0 * (voxel - std::floor(voxel))));
+    }
+    bars += occupied.size();
+  }
+  const cv::Mat positions = test::picture(folder / "fractional_positions.png");
+  EXPECT_EQ(test::pixels_of(positions.row(268), {255, 150, 60}).size(), 14 * bars);
 }
 
 TEST(Segment, VoxelsTwiceAsHighAsTheyAreWide) {
