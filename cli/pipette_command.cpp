@@ -74,8 +74,8 @@ void run(const PipetteOptions& options) {
   if (!options.film.empty() && options.film.extension() != ".mp4" && options.film.extension() != ".avi")
     throw BadUsage(fmt::format("pipette: --film: found {}, expected a name ending in .mp4 or .avi",
                                options.film.string()));
-  const std::vector<fs::path> outputs = {out, beside(out, ".json"), beside(out, ".png"),
-                                         beside(out, ".pdf"), options.film};
+  const std::vector<fs::path> outputs = {out, beside(out, ".json"), beside(out, ".png"), beside(out, ".pdf"),
+                                         options.film};
   apply(options.common, {options.calibration}, outputs);
   protect_also(pipette::FrameSource(options.frames).files());
   require_outputs(outputs);
