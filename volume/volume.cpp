@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "volume/format.h"
 
 namespace pendular {
 namespace {
