@@ -12,6 +12,7 @@
 #include "viz/frame.h"
 #include "viz/plot.h"
 #include "viz/scene.h"
+#include "viz/viewer/run_view.h"
 
 namespace pendular::viz {
 namespace {
@@ -124,6 +125,7 @@ ReportSection compression_section(const RenderSummary& summary) {
         "");
   }
   section.pictures = summary.pictures;
+  section.specimens = {run_view(summary.run)};
   return section;
 }
 
