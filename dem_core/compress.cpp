@@ -19,6 +19,7 @@
 #include "dem_core/step/stepper.h"
 #include "packing/bridges.h"
 #include "packing/diameters.h"
+#include "packing/exchange_run.h"
 #include "packing/measurement.h"
 #include "packing/statistics.h"
 #include "packing/touching.h"
@@ -266,7 +267,7 @@ Performance run(RunState& state, const Sample& sample, const CompressOptions& op
 
 /// What an earlier run in this folder has left must not pass for this one's.
 void remove_earlier_run(const fs::path& folder) {
-  for (const char* name : {"curve.csv", "events.csv", "avalanches.csv", "result.json"})
+  for (const char* name : {"curve.csv", "events.csv", "avalanches.csv", "result.json", "run.pvd"})
     remove_output(folder / name);
   remove_checkpoints(folder);
   for (const auto& entry : fs::directory_iterator(folder / "frames"))
@@ -349,6 +350,7 @@ CompressResult compress(const Packing& packing, const Sample& sample, const fs::
   write_curve(folder / "curve.csv", state.rows, options.provenance);
   write_events(folder / "events.csv", state.simulation, ids, options.provenance);
   write_avalanches(folder / "avalanches.csv", found, options.provenance);
+  if (state.frames_written > 0) write_pvd(folder / "run.pvd", folder);
   write_text(folder / "result.json", result.result.dump(2) + "\n");
   return result;
 }
