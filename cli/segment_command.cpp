@@ -110,7 +110,7 @@ void run(const Options& options) {
     throw BadUsage("--calibrate-bridges: found no --bridges, expected bridges to calibrate");
   protect_also(volume_files(options.volume));
   require_outputs(outputs);
-  const Provenance origin = provenance(options.common, {options.volume});
+  const Provenance origin = provenance(options.common, {volume_place(options.volume)});
   const Volume volume = read_volume(options.volume, how);
   const Segmentation result = [&] {
     try {
@@ -142,9 +142,10 @@ void add_segment(CLI::App& app) {
   auto options = std::make_shared<Options>();
   auto* command = add_picture_command(app, "segment");
   command
-      ->add_option("volume", options->volume,
-                   "MetaImage, NRRD, multi-page TIFF, folder of TIFF, PNG or DICOM slices, GE phoenix .pcr "
-                   "or .vol, or raw data")
+      ->add_option(
+          "volume", options->volume,
+          "MetaImage, NRRD, multi-page TIFF, folder of TIFF, PNG or DICOM slices, HDF5 or NeXus with its "
+          "dataset (scan.h5:/entry/data), folder of OME-Zarr, GE phoenix .pcr or .vol, or raw data")
       ->required();
   add_common(*command, options->common, "Beads (beads.csv); a summary goes beside it as .json");
   command->add_option("--voxel-um", options->voxel_um, "Edge of a voxel, um; overrides the header's")

@@ -7,7 +7,9 @@
 #include "volume/image_io.h"
 #include "volume/phoenix.h"
 #include "volume/read_dicom.h"
+#include "volume/read_hdf5.h"
 #include "volume/read_slices.h"
+#include "volume/read_zarr.h"
 #include "volume/volume.h"
 
 namespace pendular {
@@ -117,8 +119,14 @@ void check_pixels(const Volume& volume, const fs::path& path) {
 
 }  // namespace
 
+fs::path volume_place(const fs::path& path) {
+  return hdf5_file(path).value_or(path);
+}
+
 std::vector<fs::path> volume_files(const fs::path& path) {
-  require_readable(path, true);
+  require_readable(volume_place(path), true);
+  if (const auto file = hdf5_file(path)) return {*file};
+  if (is_zarr(path)) return zarr_files(path);
   std::vector<fs::path> files = {path};
   const std::string extension = lower_extension(path);
   if (fs::is_directory(path)) return is_dicom(path) ? files_in(path) : slice_files(path);
@@ -133,10 +141,12 @@ std::vector<fs::path> volume_files(const fs::path& path) {
 }
 
 Volume read_volume(const fs::path& path, const ReadOptions& options) {
-  require_readable(path, true);
+  require_readable(volume_place(path), true);
   if (options.raw_size && fs::is_directory(path))
     throw BadUsage("--size: found a folder of slices, expected headerless data");
-  Volume volume = is_dicom(path)           ? read_dicom(path, options)
+  Volume volume = hdf5_file(path)          ? read_hdf5(path, options)
+                  : is_zarr(path)          ? read_zarr(path, options)
+                  : is_dicom(path)         ? read_dicom(path, options)
                   : fs::is_directory(path) ? read_slices(path, options)
                   : options.raw_size       ? read_raw(path, options)
                   : is_phoenix(path)       ? read_phoenix(path, options)

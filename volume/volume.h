@@ -74,7 +74,8 @@ struct ReadOptions {
 };
 
 /// Reads MetaImage (.mha, .mhd), NRRD, multi-page TIFF, a folder of TIFF or PNG slices in the natural order
-/// of their names (z rising), DICOM (a series in a folder, or a file of several frames; lengths in mm), a GE
+/// of their names (z rising), HDF5 and NeXus (by the dataset's name: "scan.h5:/entry/data"; read_hdf5.h),
+/// OME-Zarr (read_zarr.h), DICOM (a series in a folder, or a file of several frames; lengths in mm), a GE
 /// phoenix volume (.pcr, or .vol beside one; mm), or, with `raw_size`, a headerless file. Other lengths in a
 /// header count as µm, unless an NRRD names another unit; spacing 1 or none means unknown: 1 µm, with a
 /// warning. Voxels that are not cubic are taken to cubic ones of their shortest edge
@@ -83,6 +84,9 @@ struct ReadOptions {
 /// colours, other pixel types, NaN or infinity, or one grey value throughout. Uncompressed MetaImage,
 /// headerless and phoenix data stay in their file, so the volume may be larger than memory.
 Volume read_volume(const fs::path& path, const ReadOptions& options = {});
+
+/// The file or folder that a volume's name means, without the dataset that it may name.
+fs::path volume_place(const fs::path& path);
 
 /// The files that a volume is read from: the one that is named and those that it names, or a folder's slices.
 std::vector<fs::path> volume_files(const fs::path& path);
