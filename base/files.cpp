@@ -277,10 +277,13 @@ std::string sha256_of(const fs::path& path) {
     add_file(hash, path);
     return hash.hex();
   }
-  for (const auto& file : files_in(path)) {
-    const std::string name = file.filename().string();
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(path))
+    if (entry.is_regular_file()) names.push_back(entry.path().lexically_relative(path).generic_string());
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names) {
     hash.add(name.data(), name.size());
-    add_file(hash, file);
+    add_file(hash, path / name);
   }
   return hash.hex();
 }

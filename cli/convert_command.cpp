@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "cli/command.h"
 #include "packing/exchange.h"
+#include "packing/exchange_run.h"
+#include "packing/polydata.h"
 #include "packing/tables.h"
 
 namespace pendular::cli {
@@ -13,7 +15,8 @@ struct ConvertOptions {
   fs::path in, out, bridges;
   std::string from, format;
   double density = 2540.0;
-  std::optional<double> diameter_um;
+  std::optional<double> diameter_um, voxel_um;
+  bool displaced = false;
 };
 
 ExchangeFormat format_for(const std::string& word, const fs::path& path) {
@@ -36,16 +39,39 @@ Provenance provenance_for(const ConvertOptions& options, const std::vector<fs::p
   return result;
 }
 
+/// A run folder, for ParaView (.pvd) or OVITO (.dump).
+void convert_run(const ConvertOptions& options, const fs::path& out) {
+  const bool dump = out.extension() == ".dump";
+  if (!dump && out.extension() != ".pvd")
+    throw BadUsage(
+        fmt::format("{}: found a run folder to convert, expected an output .pvd or .dump", out.string()));
+  apply(options.common, run_frames(options.in), {out, dump ? bonds_beside(out) : fs::path()});
+  dump ? write_dump(out, options.in) : write_pvd(out, options.in);
+}
+
+/// Any .vtp of this program, a frame too, with all that it holds.
+void convert_polydata(const ConvertOptions& options, const fs::path& out) {
+  apply(options.common, {options.in}, {out});
+  write_vtkhdf(out, read_polydata(options.in));
+}
+
 void run(const ConvertOptions& options) {
   const fs::path out = output_of(options);
+  if (fs::is_directory(options.in)) return convert_run(options, out);
   const ExchangeFormat from = format_for(options.from, options.in), to = format_for(options.format, out);
+  if (from == ExchangeFormat::vtp && to == ExchangeFormat::vtkhdf) return convert_polydata(options, out);
+  if (from != ExchangeFormat::spam && (options.voxel_um || options.displaced))
+    throw BadUsage("convert: --voxel-um and --displaced go with tables of spam");
   const bool reads_bridges = from == ExchangeFormat::csv && !options.bridges.empty();
   const bool writes_bridges = to == ExchangeFormat::csv && !reads_bridges && !options.bridges.empty();
   apply(options.common, {options.in, reads_bridges ? options.bridges : fs::path()},
         {out, writes_bridges ? options.bridges : fs::path()});
   std::optional<double> diameter;
   if (options.diameter_um) diameter = 1e-6 * *options.diameter_um;
-  Packing packing = read_exchange(options.in, from, diameter);
+  SpamTable table;
+  if (options.voxel_um) table.voxel = 1e-6 * *options.voxel_um;
+  table.displaced = options.displaced;
+  Packing packing = read_exchange(options.in, from, diameter, table);
   std::vector<fs::path> inputs = {options.in};
   if (reads_bridges) {
     packing.bridges = read_bridges(options.bridges, packing.beads);
@@ -69,9 +95,13 @@ void add_convert(CLI::App& app) {
       "lammps: data file, units si, atom_style hybrid sphere bond (reads sphere and bpm/sphere too).\n"
       "liggghts: data file, units si, atom_style granular. xyz (read only): lines of id x y z in bead "
       "radii.\n"
+      "spam (read only): table of labels, places and displacements in voxels, as of spam-ddic.\n"
+      "vtkhdf (write only): VTKHDF unstructured grid, of a packing or of a run's frame (.vtp).\n"
       "The format follows from the extension: .vtp, .csv, .txt (yade), .data, .lmp (lammps), .liggghts, "
-      ".xyz.");
-  command->add_option("input", options->in, "File to read; axes x, y, z")->required();
+      ".tsv (spam), .vtkhdf, .xyz.\n"
+      "A run folder becomes one file that ParaView plays (.pvd), or LAMMPS dumps of beads and of bonds for "
+      "OVITO (.dump).");
+  command->add_option("input", options->in, "File to read, or a run folder; axes x, y, z")->required();
   command->add_option("--from", options->from, "Format of the input, where the extension does not say it");
   command->add_option("--format", options->format,
                       "Format of the output, where the extension does not say it");
@@ -80,8 +110,14 @@ void add_convert(CLI::App& app) {
   command->add_option("--density-kg-m3", options->density, "Bead density in LAMMPS and LIGGGHTS files")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--diameter-um", options->diameter_um, "Bead diameter of an xyz input")
+  command
+      ->add_option("--diameter-um", options->diameter_um,
+                   "Bead diameter of an xyz input, or of spam's without radii")
       ->check(CLI::PositiveNumber);
+  command->add_option("--voxel-um", options->voxel_um, "Voxel size of spam's tables")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--displaced", options->displaced,
+                    "Beads where spam-ddic found them in the second scan, for `pendular track`");
   add_common(*command, options->common, "File to write");
   command->get_option("--out")->required(false);
   command->add_option("output", options->out, "File to write");

@@ -111,7 +111,7 @@ void run(const Options& options) {
     throw BadUsage("--calibrate-bridges: found no --bridges, expected bridges to calibrate");
   protect_also(volume_files(options.volume));
   require_outputs(outputs);
-  const Provenance origin = provenance(options.common, {options.volume});
+  const Provenance origin = provenance(options.common, {volume_place(options.volume)});
   const Volume volume = read_volume(options.volume, how);
   const Segmentation result = [&] {
     try {

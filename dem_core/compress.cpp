@@ -20,6 +20,7 @@
 #include "dem_core/step/stepper.h"
 #include "packing/bridges.h"
 #include "packing/diameters.h"
+#include "packing/exchange_run.h"
 #include "packing/measurement.h"
 #include "packing/statistics.h"
 #include "packing/touching.h"
@@ -268,7 +269,8 @@ Performance run(RunState& state, const Sample& sample, const CompressOptions& op
 
 /// What an earlier run in this folder has left must not pass for this one's.
 void remove_earlier_run(const fs::path& folder) {
-  for (const char* name : {run_file::kCurve, run_file::kEvents, run_file::kAvalanches, run_file::kResult})
+  for (const char* name :
+       {run_file::kCurve, run_file::kEvents, run_file::kAvalanches, run_file::kResult, "run.pvd"})
     remove_output(folder / name);
   remove_checkpoints(folder);
   for (const auto& entry : fs::directory_iterator(folder / run_file::kFrames))
@@ -347,6 +349,7 @@ CompressResult compress(const Packing& packing, const Sample& sample, const fs::
   write_curve(folder / run_file::kCurve, state.rows, options.provenance);
   write_events(folder / run_file::kEvents, break_rows(state.simulation, ids), options.provenance);
   write_avalanches(folder / run_file::kAvalanches, found, options.provenance);
+  if (state.frames_written > 0) write_pvd(folder / "run.pvd", folder);
   write_text(folder / run_file::kResult, result.result.dump(2) + "\n");
   return result;
 }

@@ -8,6 +8,7 @@
 #include "base/quantity.h"
 #include "diagnosis/words.h"
 #include "diagnosis_report/explanations.h"
+#include "diagnosis_report/place_figures.h"
 #include "diagnosis_report/tables.h"
 
 namespace pendular::diagnosis_report {
@@ -50,6 +51,7 @@ viz::ReportSection section(const std::string& heading, const std::string& text,
 viz::ReportSection where_section(const Diagnosis& d, const Pictures& pictures) {
   auto out = section("Where the gap lies", d.gap.rows.empty() ? "No features could be compared." : "",
                      pictures.where);
+  for (const auto& place : d.places) out.specimens.push_back(place_view(place));
   if (d.gap.rows.empty()) return out;
   out.tables = {
       to_report(shown_share_table(d), "Share of the gap by scale and by observation."),

@@ -92,6 +92,35 @@ std::vector<Drawn> place_figures(const std::vector<Place>& places) {
   return figures;
 }
 
+viz::SpecimenView place_view(const Place& place) {
+  using Colours = viz::SpecimenView::Colours;
+  viz::SpecimenView view;
+  view.caption = fmt::format("{} at {:.2f} % strain: where experiment and simulation part.",
+                             place.observation, kPercent * place.strain);
+  view.ids = place.ids;
+  view.diameters = place.diameter;
+  view.fields = {{"misfit over noise", "", Colours::alarm},
+                 {"stands out (1: yes)", "", Colours::alarm},
+                 {"measured less simulated displacement", "\u00b5m"},
+                 {"change of stiffness that would mend it", "%", Colours::signed_values},
+                 {"its standard deviation", "%"}};
+  auto& moment = view.moments.emplace_back();
+  moment.label = fmt::format("{:.2f} % strain", kPercent * place.strain);
+  moment.centres = place.rest;
+  moment.values.resize(view.fields.size());
+  for (std::size_t k = 0; k < place.ids.size(); ++k) {
+    moment.values[0].push_back(place.misfit.value[k]);
+    moment.values[1].push_back(place.stands_out(k) ? 1.0 : 0.0);
+    moment.values[2].push_back(kUm * place.misfit.difference[k].norm());
+    moment.values[3].push_back(change_percent(place, k));
+    moment.values[4].push_back(sigma_percent(place, k));
+  }
+  set_ranges(view);
+  view.fields[0].low = 1.0;
+  view.fields[0].high = std::max(kLargestMisfit, 2.0 * place.misfit.threshold);
+  return view;
+}
+
 PolyTable place_polydata(const Place& place) {
   PolyTable table;
   std::vector<double> diameter, change, sigma;

@@ -21,11 +21,13 @@ struct Name {
   const char* word;
   std::array<const char*, 2> extensions;
 };
-constexpr std::array<Name, 6> kNames = {{{ExchangeFormat::vtp, "vtp", {".vtp", ".vtp"}},
+constexpr std::array<Name, 8> kNames = {{{ExchangeFormat::vtp, "vtp", {".vtp", ".vtp"}},
                                          {ExchangeFormat::csv, "csv", {".csv", ".csv"}},
                                          {ExchangeFormat::yade, "yade", {".txt", ".yade"}},
                                          {ExchangeFormat::lammps, "lammps", {".data", ".lmp"}},
                                          {ExchangeFormat::liggghts, "liggghts", {".liggghts", ".liggghts"}},
+                                         {ExchangeFormat::spam, "spam", {".tsv", ".tsv"}},
+                                         {ExchangeFormat::vtkhdf, "vtkhdf", {".vtkhdf", ".vtkhdf"}},
                                          {ExchangeFormat::xyz, "xyz", {".xyz", ".xyz"}}}};
 
 std::string yade_text(const Packing& packing) {
@@ -63,7 +65,8 @@ std::vector<Bead> read_xyz(const fs::path& path, std::optional<double> diameter)
   return beads;
 }
 
-Packing read_unchecked(const fs::path& path, ExchangeFormat format, std::optional<double> diameter) {
+Packing read_unchecked(const fs::path& path, ExchangeFormat format, std::optional<double> diameter,
+                       const SpamTable& table) {
   Packing packing;
   switch (format) {
     case ExchangeFormat::vtp:
@@ -74,6 +77,11 @@ Packing read_unchecked(const fs::path& path, ExchangeFormat format, std::optiona
     case ExchangeFormat::yade:
       packing.beads = read_yade(path);
       break;
+    case ExchangeFormat::spam:
+      packing.beads = read_spam(path, table, diameter);
+      break;
+    case ExchangeFormat::vtkhdf:
+      throw BadUsage("format vtkhdf is write only, expected vtp, csv, yade, lammps, liggghts, spam or xyz");
     case ExchangeFormat::xyz:
       packing.beads = read_xyz(path, diameter);
       break;
@@ -90,17 +98,20 @@ Packing read_unchecked(const fs::path& path, ExchangeFormat format, std::optiona
 ExchangeFormat exchange_format(const std::string& word) {
   for (const auto& name : kNames)
     if (word == name.word) return name.format;
-  throw BadUsage(fmt::format("format: found {}, expected vtp, csv, yade, lammps, liggghts or xyz", word));
+  throw BadUsage(
+      fmt::format("format: found {}, expected vtp, csv, yade, lammps, liggghts, spam, vtkhdf or xyz", word));
 }
 
 ExchangeFormat exchange_format_of(const fs::path& path) {
   for (const auto& name : kNames)
     for (const char* extension : name.extensions)
       if (path.extension() == extension) return name.format;
-  throw BadUsage(fmt::format(
-      "{}: the extension names no format, expected .vtp, .csv, .txt, .data, .lmp, .liggghts or .xyz, or "
-      "the format by option",
-      path.string()));
+  throw BadUsage(
+      fmt::format("{}: the extension names no format, expected .vtp, .csv, .txt, .data, .lmp, .liggghts, "
+                  ".tsv, .vtkhdf or "
+                  ".xyz, or "
+                  "the format by option",
+                  path.string()));
 }
 
 void write_exchange(const fs::path& path, ExchangeFormat format, const Packing& packing, double density) {
@@ -115,13 +126,18 @@ void write_exchange(const fs::path& path, ExchangeFormat format, const Packing& 
       return write_text(path, lammps_text(packing, density));
     case ExchangeFormat::liggghts:
       return write_text(path, liggghts_text(packing, density));
+    case ExchangeFormat::vtkhdf:
+      return write_vtkhdf(path, to_polydata(packing));
+    case ExchangeFormat::spam:
     case ExchangeFormat::xyz:
-      throw BadUsage("format xyz is read only, expected vtp, csv, yade, lammps or liggghts");
+      throw BadUsage(
+          "formats spam and xyz are read only, expected vtp, csv, yade, lammps, liggghts or vtkhdf");
   }
 }
 
-Packing read_exchange(const fs::path& path, ExchangeFormat format, std::optional<double> diameter) {
-  Packing packing = read_unchecked(path, format, diameter);
+Packing read_exchange(const fs::path& path, ExchangeFormat format, std::optional<double> diameter,
+                      const SpamTable& table) {
+  Packing packing = read_unchecked(path, format, diameter, table);
   if (format == ExchangeFormat::vtp) return packing;
   check_beads(packing.beads, path.string());
   packing.specimen = specimen_enclosing(packing.beads);

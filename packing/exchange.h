@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "packing/exchange_spam.h"
 #include "packing/packing.h"
 
 namespace pendular {
@@ -17,13 +18,16 @@ enum class ExchangeFormat {
   lammps,    ///< LAMMPS read_data, units si, atom_style hybrid sphere bond: beads and bonds; reads sphere and
              ///< bpm/sphere too
   liggghts,  ///< LIGGGHTS read_data, units si, atom_style granular: beads
+  spam,      ///< read only; exchange_spam.h
+  vtkhdf,    ///< write only; VTKHDF (polydata.h): what vtp holds
   xyz,       ///< read only; lines of "id x y z" in bead radii, as of Finney's packing
 };
 
-/// vtp, csv, yade, lammps, liggghts or xyz; BadUsage for any other word.
+/// vtp, csv, yade, lammps, liggghts, spam, vtkhdf or xyz; BadUsage for any other word.
 ExchangeFormat exchange_format(const std::string& word);
 
-/// By extension: .vtp, .csv, .txt (yade), .data or .lmp (lammps), .liggghts, .xyz; BadUsage for any other.
+/// By extension: .vtp, .csv, .txt (yade), .data or .lmp (lammps), .liggghts, .tsv (spam), .vtkhdf,
+/// .xyz; BadUsage for any other.
 ExchangeFormat exchange_format_of(const fs::path& path);
 
 /// Writes the packing as far as the format holds it. LAMMPS and LIGGGHTS need the bead density (kg/m3) and
@@ -31,9 +35,10 @@ ExchangeFormat exchange_format_of(const fs::path& path);
 void write_exchange(const fs::path& path, ExchangeFormat format, const Packing& packing, double density);
 
 /// What the file holds, checked by check_beads(). Bonds become bridges in state bridge. The specimen of any
-/// format but vtp is the smallest upright cylinder that encloses the beads. `diameter` (m) is needed by xyz
-/// only. Provenance is left empty but for vtp. BadInput with file and line.
+/// format but vtp is the smallest upright cylinder that encloses the beads. `diameter` (m) is needed by xyz,
+/// and by spam where the table has no radii; `table` by spam only. Provenance is left empty but for vtp.
+/// BadInput with file and line.
 Packing read_exchange(const fs::path& path, ExchangeFormat format,
-                      std::optional<double> diameter = std::nullopt);
+                      std::optional<double> diameter = std::nullopt, const SpamTable& table = {});
 
 }  // namespace pendular

@@ -143,6 +143,13 @@ void write_polydata(const fs::path& path, const PolyTable& table) {
   });
 }
 
+void write_vtkhdf(const fs::path& path, const PolyTable& table) {
+  write_atomically(path, [&](const fs::path& temporary) {
+    if (!polydata_files().write_vtkhdf(temporary, table))
+      throw ComputationFailed(fmt::format("{}: cannot be written (folder or disc full?)", path.string()));
+  });
+}
+
 PolyTable read_polydata(const fs::path& path) {
   const std::string bytes = whole_file(path);
   const PolyXml xml = read_poly_xml(path, bytes);

@@ -28,6 +28,10 @@ struct PolyTable {
 /// Writes a .vtp whole or not at all (XML, appended and compressed); equal tables give equal bytes.
 void write_polydata(const fs::path& path, const PolyTable& table);
 
+/// Writes a VTKHDF file (UnstructuredGrid, version 1.0, as VTK 9.1 and ParaView 5.10 read it), whole or not
+/// at all: the lines are its cells, or the points where there are no lines. Equal tables give equal bytes.
+void write_vtkhdf(const fs::path& path, const PolyTable& table);
+
 /// Reads a .vtp of one piece: ASCII, base64 or raw, uncompressed or by zlib. VTK sees no byte of it. BadInput
 /// where the file is no readable .vtp, is truncated, or an array has another length than it must.
 PolyTable read_polydata(const fs::path& path);

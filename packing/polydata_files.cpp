@@ -20,6 +20,8 @@
 #include <algorithm>
 #include <mutex>
 
+#include "packing/vtkhdf_file.h"
+
 namespace pendular {
 namespace {
 
@@ -150,4 +152,4 @@ bool write(const fs::path& path, const PolyTable& table) {
 }  // namespace
 }  // namespace pendular
 
-const pendular::PolydataFiles pendular_polydata_files = {pendular::write};
+const pendular::PolydataFiles pendular_polydata_files = {pendular::write, pendular::write_vtkhdf_file};

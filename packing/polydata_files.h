@@ -4,11 +4,12 @@
 
 namespace pendular {
 
-/// What VTK does of write_polydata(): the file of a table, without its seal; false where it cannot be
-/// written. A shared object of its own holds it, loaded where a file is first written: VTK's libraries take
-/// longer to load than all others of a program that draws nothing.
+/// What VTK does of write_polydata() and HDF5 of write_vtkhdf(): the file of a table, the former without its
+/// seal; false where it cannot be written. A shared object of its own holds it, loaded where a file is first
+/// written: VTK's libraries take longer to load than all others of a program that draws nothing.
 struct PolydataFiles {
   bool (*write)(const fs::path& path, const PolyTable& table);
+  bool (*write_vtkhdf)(const fs::path& path, const PolyTable& table);
 };
 
 }  // namespace pendular

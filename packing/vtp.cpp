@@ -114,7 +114,7 @@ std::vector<Bridge> bridges_of(const PolyTable& table, const fs::path& path) {
 
 }  // namespace
 
-void write_packing(const fs::path& path, const Packing& packing) {
+PolyTable to_polydata(const Packing& packing) {
   const auto flag = [](bool value) { return std::int64_t{value}; };
   PolyTable table;
   table.points = column(packing.beads, [](const Bead& b) { return Vec3(b.centre / um); });
@@ -147,7 +147,11 @@ void write_packing(const fs::path& path, const Packing& packing) {
                          {"specimen_axis_x_um", packing.specimen.axis_x / um},
                          {"specimen_axis_y_um", packing.specimen.axis_y / um},
                          {"specimen_bottom_um", packing.specimen.bottom / um}};
-  write_polydata(path, table);
+  return table;
+}
+
+void write_packing(const fs::path& path, const Packing& packing) {
+  write_polydata(path, to_polydata(packing));
 }
 
 Packing read_packing(const fs::path& path) {

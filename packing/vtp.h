@@ -1,6 +1,7 @@
 #pragma once
 
 #include "packing/packing.h"
+#include "packing/polydata.h"
 
 namespace pendular {
 
@@ -8,6 +9,7 @@ namespace pendular {
 /// specimen_*_um and the provenance as JSON. The line array `state` holds 0 candidate, 1 bridge, 2 none,
 /// 3 undetermined. What is read equals what was written to 1e-15 of each length (the change of unit), and
 /// exactly in everything else.
+PolyTable to_polydata(const Packing& packing);
 void write_packing(const fs::path& path, const Packing& packing);
 
 /// BadInput for what is no packing, was written by a later format version, or fails check_beads(); bridges

@@ -13,6 +13,7 @@
 #include "viz/gnuplot.h"
 #include "viz/plot.h"
 #include "viz/scene.h"
+#include "viz/viewer/run_view.h"
 
 namespace pendular::viz {
 namespace {
@@ -129,6 +130,7 @@ ReportSection compression_section(const RenderSummary& summary) {
         "");
   }
   section.pictures = summary.pictures;
+  section.specimens = {run_view(summary.run)};
   return section;
 }
 

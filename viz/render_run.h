@@ -34,7 +34,7 @@ struct RenderSummary {
 /// (film/, film.mp4), or of the one view asked for. BadInput for what is missing or broken in the run folder.
 RenderSummary render_run(const fs::path& run, const fs::path& out, const RenderOptions& options = {});
 
-/// A run's section of a report: its figures in a table, and its pictures.
+/// A run's section of a report: its figures in a table, its specimen to turn, and its pictures.
 ReportSection compression_section(const RenderSummary& summary);
 
 /// A run in words: modulus, linear limit, peak, broken bonds, shear band.

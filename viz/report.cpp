@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <sstream>
 #include <string_view>
 
+#include "viz/html_text.h"
+#include "viz/thumbnail.h"
+
 namespace pendular::viz {
 namespace {
+
+constexpr int kThumbnailWidth = 800;
 
 constexpr std::string_view kStyle = R"(
 body{font:16px/1.5 "Helvetica Neue",Arial,"Liberation Sans",sans-serif;color:#1a1a1a;background:#fff;
@@ -31,45 +35,6 @@ pre{white-space:pre-wrap;overflow-wrap:anywhere;background:#f6f6f6;padding:.8rem
 @media print{body{font-size:11pt;max-width:none;margin:0;padding:0}figure,tr{break-inside:avoid}
 h2{break-after:avoid}img{max-height:22cm}.wide{overflow:visible}table{font-size:.8em}}
 )";
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (char c : text) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
-  return out;
-}
-
-/// RFC 4648, section 4.
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    const std::size_t left = std::min<std::size_t>(3, bytes.size() - k);
-    std::uint32_t group = 0;
-    for (std::size_t b = 0; b < 3; ++b)
-      group = group << 8 | (b < left ? static_cast<std::uint8_t>(bytes[k + b]) : 0u);
-    for (std::size_t d = 0; d < 4; ++d) out += d <= left ? kDigits[group >> (18 - 6 * d) & 63u] : '=';
-  }
-  return out;
-}
 
 bool starts_as_number(std::string_view cell) {
   for (const std::string_view sign : {"-", "+", "\u2212", "\u00b1", "<", ">"})
@@ -134,28 +99,59 @@ std::string to_html(const std::vector<std::string>& warnings) {
   return out + "</ul>\n";
 }
 
-/// As an image, in which a browser runs no script and follows no reference, whatever the file holds.
-std::string figure(const ReportPicture& picture) {
-  const char* kind = picture.file.extension() == ".svg" ? "svg+xml" : "png";
-  return fmt::format(
-      "<figure><img alt=\"{0}\" src=\"data:image/{1};base64,{2}\"><figcaption>{0}</figcaption></figure>\n",
-      escaped(picture.caption), kind, base64(read_text(picture.file)));
+/// The picture's file as the page may name it; empty where it is not in the page's folder or below.
+std::string beside(const fs::path& page, const fs::path& picture) {
+  const fs::path way =
+      fs::weakly_canonical(picture).lexically_relative(fs::weakly_canonical(page).parent_path());
+  return way.empty() || *way.begin() == ".." ? "" : link_to(way.generic_string());
+}
+
+std::string embedded(const fs::path& picture) {
+  return picture.extension() == ".svg"
+             ? "data:image/svg+xml;base64," + base64(read_text(picture))
+             : "data:image/jpeg;base64," + base64(thumbnail(picture, kThumbnailWidth));
+}
+
+std::string figure(const fs::path& page, const ReportPicture& picture) {
+  const std::string caption = escaped(picture.caption), file = beside(page, picture.file);
+  std::string image = fmt::format("<img alt=\"{}\" src=\"{}\">", caption, embedded(picture.file));
+  if (!file.empty()) image = fmt::format("<a href=\"{}\" title=\"Full size\">{}</a>", file, image);
+  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", image, caption);
+}
+
+bool has_specimens(const Report& report) {
+  return std::any_of(report.sections.begin(), report.sections.end(),
+                     [](const auto& section) { return !section.specimens.empty(); });
+}
+
+/// What stands before the body: the policy allows this style and this script by their hashes, pictures within
+/// the page, and nothing else.
+std::string head(const Report& report) {
+  const std::string style = std::string(kStyle) + (has_specimens(report) ? view_style() : "");
+  const std::string script = has_specimens(report) ? view_script() : "";
+  std::string policy = "default-src 'none'; img-src data:; style-src " + policy_hash(style);
+  if (!script.empty()) policy += "; script-src " + policy_hash(script);
+  std::string html = fmt::format(
+      "<meta charset=\"utf-8\"><meta http-equiv=\"Content-Security-Policy\" content=\"{}; base-uri 'none'; "
+      "form-action 'none'\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
+      "<title>{}</title><style>{}</style>",
+      policy, escaped(report.title), style);
+  if (!script.empty()) html += "<script>" + script + "</script>";
+  return html;
 }
 
 }  // namespace
 
 void write_report(const fs::path& path, const Report& report) {
-  std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width, "
-      "initial-scale=1\"><title>{0}</title><style>{1}</style></head>\n<body>\n<h1>{0}</h1>\n",
-      escaped(report.title), kStyle);
+  std::string html = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head>{}</head>\n<body>\n<h1>{}</h1>\n",
+                                 head(report), escaped(report.title));
   html +=
       paragraphs(" class=\"summary\"", report.summary) + to_html(report.warnings) + to_html(report.figures);
   for (const ReportSection& section : report.sections) {
     html += fmt::format("<h2>{}</h2>\n", escaped(section.heading));
     html += paragraphs("", section.text) + to_html(section.rows);
-    for (const ReportPicture& picture : section.pictures) html += figure(picture);
+    for (const SpecimenView& specimen : section.specimens) html += to_html(specimen);
+    for (const ReportPicture& picture : section.pictures) html += figure(path, picture);
     for (const ReportTable& table : section.tables) html += to_html(table);
   }
   if (!report.provenance.is_null())

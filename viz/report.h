@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/files.h"
+#include "viz/viewer/specimen_view.h"
 
 namespace pendular::viz {
 
@@ -32,7 +33,8 @@ struct ReportSection {
   std::string text;  ///< a paragraph; may be empty
   std::vector<ReportRow> rows;
   std::vector<ReportPicture> pictures;
-  std::vector<ReportTable> tables = {};  ///< after the pictures
+  std::vector<ReportTable> tables = {};      ///< after the pictures
+  std::vector<SpecimenView> specimens = {};  ///< before the pictures
 };
 
 struct Report {
@@ -44,8 +46,10 @@ struct Report {
   std::vector<ReportRow> figures = {};     ///< the few that the summary rests on, after both
 };
 
-/// Writes a report as one HTML page that needs nothing else: pictures are embedded, there is no script and no
-/// reference to another file. Every text is escaped. BadInput where a picture cannot be read.
+/// Writes a report as one HTML page that needs nothing else and no network. A PNG is embedded as a smaller
+/// JPEG, an SVG whole; either is a link to its file where that lies in the page's folder or below. Every text
+/// is escaped. The page runs no script but that of its specimens, by a content security policy; without WebGL
+/// 2 it says in one line that they cannot be turned. BadInput where a picture cannot be read.
 void write_report(const fs::path& path, const Report& report);
 
 }  // namespace pendular::viz

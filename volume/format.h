@@ -48,6 +48,8 @@ std::string lower_extension(const fs::path& path);
 
 namespace formats {
 VolumeFormat dicom();
+VolumeFormat hdf5();
+VolumeFormat zarr();
 VolumeFormat slices();
 VolumeFormat headerless();
 VolumeFormat phoenix();

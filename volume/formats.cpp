@@ -8,9 +8,9 @@ namespace pendular {
 namespace {
 
 std::list<VolumeFormat>& all_formats() {
-  static std::list<VolumeFormat> all = {formats::dicom(),   formats::slices(),     formats::headerless(),
-                                        formats::phoenix(), formats::meta_image(), formats::nrrd(),
-                                        formats::tiff()};
+  static std::list<VolumeFormat> all = {formats::hdf5(),       formats::zarr(),       formats::dicom(),
+                                        formats::slices(),     formats::headerless(), formats::phoenix(),
+                                        formats::meta_image(), formats::nrrd(),       formats::tiff()};
   return all;
 }
 

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "volume/format.h"
 #include "volume/header_text.h"
+#include "volume/length_unit.h"
 #include "volume/voxel_header.h"
 
 namespace pendular {
@@ -78,19 +79,16 @@ bool is_big_endian(const HeaderFields& fields, std::size_t bytes_per_voxel, Voxe
 
 /// The length of the header's unit, m; µm where it names none.
 double unit_of(const HeaderFields& fields) {
-  static const std::map<std::string, double> known = {{"m", 1.0},       {"cm", 1e-2},      {"mm", 1e-3},
-                                                      {"um", 1e-6},     {"\u00b5m", 1e-6}, {"\u03bcm", 1e-6},
-                                                      {"micron", 1e-6}, {"microns", 1e-6}, {"nm", 1e-9}};
   const std::string key = fields.has("spaceunits") ? "spaceunits" : "units";
   if (!fields.has(key)) return 1e-6;
   const std::string& text = fields.text(key);
   const auto first = text.find('"'), last = text.find('"', first + 1);
   const std::string unit = last == std::string::npos ? "" : text.substr(first + 1, last - first - 1);
-  const auto found = known.find(unit);
-  if (found == known.end())
+  const double metres = length_unit(unit);
+  if (metres == 0.0)
     bad_input("{}: found no known length unit, expected \"m\", \"cm\", \"mm\", \"um\" or \"nm\"",
               fields.where(key));
-  return found->second;
+  return metres;
 }
 
 /// "(a,b,c) (d,e,f) …" as vectors; "none" for an axis without one is left out.

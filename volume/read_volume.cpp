@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "volume/format.h"
+#include "volume/read_hdf5.h"
 
 namespace pendular {
 namespace {
@@ -36,14 +37,18 @@ void check_pixels(const Volume& volume, const fs::path& path) {
 
 }  // namespace
 
+fs::path volume_place(const fs::path& path) {
+  return hdf5_file(path).value_or(path);
+}
+
 std::vector<fs::path> volume_files(const fs::path& path) {
-  require_readable(path, true);
+  require_readable(volume_place(path), true);
   const VolumeFormat* format = format_of(path);
   return format && format->files ? format->files(path) : std::vector<fs::path>{path};
 }
 
 Volume read_volume(const fs::path& path, const ReadOptions& options) {
-  require_readable(path, true);
+  require_readable(volume_place(path), true);
   if (options.raw_size && fs::is_directory(path))
     throw BadUsage("--size: found a folder of slices, expected headerless data");
   const VolumeFormat* format = format_of(path, options);

@@ -74,7 +74,8 @@ struct ReadOptions {
 };
 
 /// Reads a volume of any known format (volume/format.h): MetaImage, NRRD, multi-page TIFF, a folder of TIFF
-/// or PNG slices in the natural order of their names (z rising), DICOM (lengths in mm), GE phoenix (mm), or,
+/// or PNG slices in the natural order of their names (z rising), HDF5 and NeXus (by the dataset's name:
+/// "scan.h5:/entry/data"), OME-Zarr, DICOM (lengths in mm), GE phoenix (mm), or,
 /// with `raw_size`, a headerless file. Other lengths in a header count as µm, unless an NRRD names another
 /// unit; spacing 1 or none means unknown: 1 µm, with a warning. Voxels that are not cubic are taken to cubic
 /// ones of their shortest edge (volume/resample.h), with a warning. BadInput, in one line, for whatever does
@@ -82,6 +83,9 @@ struct ReadOptions {
 /// several sizes, colours, other pixel types, NaN or infinity, or one grey value throughout. Uncompressed
 /// MetaImage, headerless and phoenix data stay in their file, so the volume may be larger than memory.
 Volume read_volume(const fs::path& path, const ReadOptions& options = {});
+
+/// The file or folder that a volume's name means, without the dataset that it may name.
+fs::path volume_place(const fs::path& path);
 
 /// The files that a volume is read from: the one that is named and those that it names, or a folder's slices.
 std::vector<fs::path> volume_files(const fs::path& path);

@@ -32,9 +32,14 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-void expect_refers_to_nothing_outside(const std::string& html) {
+/// Pictures are within the page; links lead to files beside it that are there.
+void expect_refers_to_nothing_outside(const std::string& html, const fs::path& folder) {
   EXPECT_EQ(html.find("<script"), std::string::npos);
-  EXPECT_FALSE(std::regex_search(html, std::regex("(src|href)=(?!\"data:image/(png|svg\\+xml);base64,)")));
+  EXPECT_NE(html.find("default-src 'none'"), std::string::npos);
+  EXPECT_FALSE(std::regex_search(html, std::regex("src=(?!\"data:image/)")));
+  const std::regex link("href=\"([^\"]*)\"");
+  for (std::sregex_iterator at(html.begin(), html.end(), link), end; at != end; ++at)
+    EXPECT_TRUE(fs::is_regular_file(folder / (*at)[1].str())) << (*at)[1];
   EXPECT_EQ(html.find("<link"), std::string::npos);
   EXPECT_EQ(html.find("url("), std::string::npos);
   EXPECT_EQ(html.find("@import"), std::string::npos);
@@ -95,7 +100,8 @@ TEST(ReportFolder, HasAFigureWithItsDataForEverythingThatIsKnown) {
   EXPECT_EQ(count(html, "<img "), figures.size());
   EXPECT_NE(html.find(diagnosis.verdict.substr(0, 40)), std::string::npos);
   EXPECT_NE(html.find("30 in all, of which 1 failed"), std::string::npos);
-  expect_refers_to_nothing_outside(html);
+  expect_refers_to_nothing_outside(html, scratch.path());
+  EXPECT_LT(html.size(), 3u << 20);
   EXPECT_TRUE(nlohmann::json::accept(read_text(scratch / "diagnosis.json")));
 }
 
@@ -119,7 +125,7 @@ TEST(ReportFolder, OfADiagnosisThatFoundNothingSaysSo) {
   const std::string html = read_text(scratch / "a" / "report.html");
   EXPECT_NE(html.find("No test was simulated with an effect added."), std::string::npos);
   EXPECT_NE(html.find("None is excluded."), std::string::npos);
-  expect_refers_to_nothing_outside(html);
+  expect_refers_to_nothing_outside(html, scratch / "a");
 
   write_report_folder(scratch / "b", test::quiet_diagnosis());
   EXPECT_EQ(sha256_of(scratch / "a"), sha256_of(scratch / "b"));
@@ -159,7 +165,7 @@ TEST(ReportFolder, EscapesEveryTextAndNamesFilesSafely) {
   EXPECT_EQ(html.find("<b "), std::string::npos);
   EXPECT_EQ(html.find("R&D"), std::string::npos);
   EXPECT_NE(html.find("R&amp;D"), std::string::npos);
-  expect_refers_to_nothing_outside(html);
+  expect_refers_to_nothing_outside(html, scratch / "out");
   for (const auto& entry : fs::directory_iterator(scratch / "out"))
     EXPECT_TRUE(std::regex_match(entry.path().filename().string(),
                                  std::regex("[A-Za-z0-9_-]+\\.(png|pdf|svg|csv|html|json)")))

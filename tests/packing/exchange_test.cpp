@@ -117,5 +117,59 @@ TEST(ExchangeFormats, NamesAndExtensions) {
   EXPECT_NEAR(read_exchange(scratch / "f.xyz", xyz, 2e-4).beads[1].centre.x(), 2e-4, 1e-18);
 }
 
+const std::string kDdic =
+    "Label\tZpos\tYpos\tXpos\tFzz\tZdisp\tFyy\tYdisp\tFxx\tXdisp\treturnStatus\terror\n"
+    "0.000\t0.0\t0.0\t0.0\t1\t0.0\t1\t0.0\t1\t0.0\t0\t0.1\n"
+    "1.000\t10.0\t20.0\t30.5\t1\t-1.0\t1\t0.5\t1\t0.25\t2\t0.1\n"
+    "2.000\t60.0\t20.0\t30.0\t1\t0.0\t1\t0.0\t1\t0.0\t1\t0.1\n"
+    "3.000\tnan\tnan\tnan\t1\tnan\t1\tnan\t1\tnan\t-7\tnan\n"
+    "4.000\t10.0\t70.0\t30.0\t1\t2.0\t1\t0.0\t1\t0.0\t2\t0.1\n";
+
+TEST(ExchangeSpam, BeadsBeforeAndAfterOfADdicTable) {
+  const ScratchFolder scratch;
+  write_text(scratch / "ddic.tsv", kDdic);
+  const auto before = read_spam(scratch / "ddic.tsv", {5e-6, false}, 2e-4);
+  ASSERT_EQ(before.size(), 3u);
+  EXPECT_EQ(before[1].id, 2);
+  EXPECT_LT((before[0].centre - Vec3(152.5e-6, 100e-6, 50e-6)).norm(), 1e-15);
+  EXPECT_EQ(before[0].diameter, 2e-4);
+  const auto after = read_spam(scratch / "ddic.tsv", {5e-6, true}, 2e-4);
+  ASSERT_EQ(after.size(), 2u);
+  EXPECT_EQ(after[1].id, 4);
+  EXPECT_LT((after[0].centre - Vec3(153.75e-6, 102.5e-6, 45e-6)).norm(), 1e-15);
+}
+
+TEST(ExchangeSpam, ATableOfBeadsMayHoldRadii) {
+  const ScratchFolder scratch;
+  write_text(scratch / "beads.tsv", "Label\tZpos\tYpos\tXpos\tradius\n3\t10\t20\t30\t18.5\n");
+  const Packing packing =
+      read_exchange(scratch / "beads.tsv", exchange_format_of("beads.tsv"), {}, {10e-6, false});
+  ASSERT_EQ(packing.beads.size(), 1u);
+  EXPECT_NEAR(packing.beads[0].diameter, 370e-6, 1e-15);
+}
+
+TEST(ExchangeSpam, WhatIsWrongIsSaid) {
+  const ScratchFolder scratch;
+  const auto expect = [&](const std::string& text, const SpamTable& table, const std::string& part) {
+    write_text(scratch / "a.tsv", text);
+    try {
+      read_spam(scratch / "a.tsv", table, 2e-4);
+      ADD_FAILURE() << part;
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  };
+  expect("", {5e-6, false}, "found nothing");
+  expect("a\tb\n1\t2\n", {5e-6, false}, "found no column Label or NodeNumber");
+  expect("Label\tZpos\tYpos\tXpos\n1\t2\t3\t4\n", {5e-6, true}, "found no column Xdisp");
+  expect("Label\tZpos\tYpos\tXpos\n1\t2\t3\n", {5e-6, false}, "a.tsv:2: found 3 words");
+  expect("Label\tZpos\tYpos\tXpos\n1\t2\tx\t4\n", {5e-6, false}, "a.tsv:2: word 3: found \"x\"");
+  expect("Label\tZpos\tYpos\tXpos\n1.5\t2\t3\t4\n", {5e-6, false}, "expected a whole number");
+  expect("Label\tZpos\tYpos\tXpos\n0\t2\t3\t4\n", {5e-6, false}, "found no beads");
+  write_text(scratch / "a.tsv", kDdic);
+  EXPECT_THROW(read_spam(scratch / "a.tsv", {}, 2e-4), BadUsage);
+  EXPECT_THROW(read_spam(scratch / "a.tsv", {5e-6, false}, {}), BadUsage);
+}
+
 }  // namespace
 }  // namespace pendular
