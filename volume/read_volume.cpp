@@ -90,7 +90,7 @@ bool is_phoenix(const fs::path& path) {
          (path.extension() == ".vol" && fs::exists(fs::path(path).replace_extension(".pcr")));
 }
 
-void check_numbers(std::span<const Grey<float>> pixels, const Volume& volume, const fs::path& path) {
+void check_numbers(std::span<const Grey<float>> pixels, const Volume& volume, const std::string& where) {
   std::atomic<std::size_t> bad{pixels.size()};
   for_blocks(pixels.size(), 1 << 20, [&](std::size_t first, std::size_t last) {
     std::size_t here = first;
@@ -99,23 +99,21 @@ void check_numbers(std::span<const Grey<float>> pixels, const Volume& volume, co
     }
   });
   if (bad < pixels.size())
-    bad_input("{}: voxel ({}, {}, {}): found NaN or infinity, expected a number", path.string(),
-              bad % volume.size[0], bad / volume.size[0] % volume.size[1],
-              bad / (volume.size[0] * volume.size[1]));
-}
-
-/// Every grey value a number, and more than one of them.
-void check_pixels(const Volume& volume, const fs::path& path) {
-  with_pixels(volume, [&]<typename T>(std::span<const Grey<T>> pixels) {
-    if constexpr (std::is_same_v<T, float>) check_numbers(pixels, volume, path);
-    const T grey = pixels[0];
-    if (std::none_of(pixels.begin(), pixels.end(), [&](T other) { return other != grey; }))
-      bad_input("{}: found one grey value throughout ({}), expected beads", path.string(), grey);
-  });
-  release(volume);
+    bad_input("{}: voxel ({}, {}, {}): found NaN or infinity, expected a number", where, bad % volume.size[0],
+              bad / volume.size[0] % volume.size[1], bad / (volume.size[0] * volume.size[1]));
 }
 
 }  // namespace
+
+void check_pixels(const Volume& volume, const std::string& where) {
+  with_pixels(volume, [&]<typename T>(std::span<const Grey<T>> pixels) {
+    if constexpr (std::is_same_v<T, float>) check_numbers(pixels, volume, where);
+    const T grey = pixels[0];
+    if (std::none_of(pixels.begin(), pixels.end(), [&](T other) { return other != grey; }))
+      bad_input("{}: found one grey value throughout ({}), expected beads", where, grey);
+  });
+  release(volume);
+}
 
 std::vector<fs::path> volume_files(const fs::path& path) {
   require_readable(path, true);
@@ -141,7 +139,7 @@ Volume read_volume(const fs::path& path, const ReadOptions& options) {
                   : options.raw_size       ? read_raw(path, options)
                   : is_phoenix(path)       ? read_phoenix(path, options)
                                            : read_one_file(path, options);
-  check_pixels(volume, path);
+  check_pixels(volume, path.string());
   return volume;
 }
 
