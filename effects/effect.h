@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,32 +65,44 @@ struct Effect {
   bool draws =
       false;  ///< what it does differs from specimen to specimen of one θ: which bridges, which beads
   /// What the sample file states otherwise than it is.
-  void (*sample)(Sample& sample, double theta) = nullptr;
+  std::function<void(Sample& sample, double theta)> sample = nullptr;
   /// What beads that were measured are taken to be, with their standard errors: of effects on how single
   /// beads are measured, for whoever knows their table only (closed_contacts()).
-  void (*beads)(std::vector<Bead>& beads, double theta) = nullptr;
+  std::function<void(std::vector<Bead>& beads, double theta)> beads = nullptr;
   /// From the beads and bridges as measured to those that are, before diameters are drawn; and back, of those
   /// effects that say what measured beads are taken to be.
-  void (*truth)(Packing& packing, double theta, const Draws& draws) = nullptr;
-  void (*reading)(Packing& packing, double theta, const Draws& draws) = nullptr;
+  std::function<void(Packing& packing, double theta, const Draws& draws)> truth = nullptr;
+  std::function<void(Packing& packing, double theta, const Draws& draws)> reading = nullptr;
   /// What becomes of the packing that is.
-  void (*packing)(Packing& packing, double theta, const Draws& draws) = nullptr;
+  std::function<void(Packing& packing, double theta, const Draws& draws)> packing = nullptr;
   /// What becomes of one bridge; `pair` is its counter. Its stiffness changes by the ratio that finite
   /// elements give.
-  void (*body)(BridgeBody& body, const Sample& sample, double theta, const Draws& draws,
-               std::uint64_t pair) = nullptr;
+  std::function<void(BridgeBody& body, const Sample& sample, double theta, const Draws& draws,
+                     std::uint64_t pair)>
+      body = nullptr;
   /// What becomes of the specimen before its test.
-  void (*simulation)(Simulation& simulation, const ActualSpecimen& specimen, double theta,
-                     const Draws& draws) = nullptr;
+  std::function<void(Simulation& simulation, const ActualSpecimen& specimen, double theta,
+                     const Draws& draws)>
+      simulation = nullptr;
   /// How bonds change as the test goes on, and how many numbers each remembers for that.
-  std::function<void(const BondMoment&)> (*evolution)(const ActualSpecimen& specimen, double theta) = nullptr;
+  std::function<std::function<void(const BondMoment&)>(const ActualSpecimen& specimen, double theta)>
+      evolution = nullptr;
   std::size_t memory = 0;
   /// What the instruments make of the rows.
-  void (*rows)(std::vector<CurveRow>& rows, const Gauge& gauge, double theta) = nullptr;
+  std::function<void(std::vector<CurveRow>& rows, const Gauge& gauge, double theta)> rows = nullptr;
+
+  /// The same as `evolution` of all standing bonds at once, sorted by their number, after that of single
+  /// ones.
+  std::function<std::function<void(std::span<const BondMoment>)>(const ActualSpecimen& specimen,
+                                                                 double theta)>
+      evolution_of_all = nullptr;
+  /// Of an effect that is no part of the library: what it does, as text or a digest; part of its runs' hash.
+  std::string code = {};
 
   /// Whether it changes nothing but what instruments read.
   bool reads_only() const {
-    return rows && !sample && !beads && !truth && !packing && !body && !simulation && !evolution;
+    return rows && !sample && !beads && !truth && !packing && !body && !simulation && !evolution &&
+           !evolution_of_all;
   }
 };
 
