@@ -22,6 +22,7 @@ void add_commands(CLI::App& app) {
   add_blind(app);
   add_sweep_run(app);
   add_blind_case(app);
+  add_manual(app);
 }
 
 }  // namespace pendular::cli
