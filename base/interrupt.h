@@ -5,6 +5,11 @@ namespace pendular {
 /// From here on Ctrl-C (SIGINT) and SIGTERM ask the running work to stop instead of killing the program.
 void catch_interrupts();
 
+/// The same by whoever calls it, also from a signal handler; and taking it back, once what worked has
+/// stopped.
+void ask_to_stop();
+void go_on();
+
 /// True once the user has asked to stop.
 bool interrupted();
 

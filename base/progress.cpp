@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <mutex>
+#include <type_traits>
 #include <utility>
 
 #include "base/text_line.h"
@@ -19,6 +21,23 @@ spdlog::logger& logger() {
     return made;
   }();
   return *instance;
+}
+
+// A listener may say something itself, or set another.
+std::recursive_mutex listening;
+
+std::optional<Listener>& listener() {
+  static std::optional<Listener> one;
+  return one;
+}
+
+/// Whether there is a listener, who has been told.
+template <typename... Values>
+bool told(std::function<void(Values...)> Listener::*what, const std::type_identity_t<Values>&... values) {
+  const std::lock_guard lock(listening);
+  if (!listener()) return false;
+  if (const auto tell = (*listener()).*what) tell(values...);
+  return true;
 }
 
 bool on_terminal() {
@@ -39,11 +58,18 @@ void set_quiet(bool quiet) {
   logger().set_level(quiet ? spdlog::level::warn : spdlog::level::info);
 }
 
+std::optional<Listener> set_listener(std::optional<Listener> next) {
+  const std::lock_guard lock(listening);
+  return std::exchange(listener(), std::move(next));
+}
+
 void say(const std::string& line) {
+  if (told(&Listener::said, line)) return;
   logger().info(line);
 }
 
 void warn(const std::string& line) {
+  if (told(&Listener::warned, line)) return;
   logger().warn(text_line("warning: " + line));
 }
 
@@ -57,6 +83,8 @@ Progress::~Progress() {
 void Progress::update(double done, const std::string& note) {
   if (first_ < 0.0) first_ = done;
   const auto now = Clock::now();
+  if (now >= next_told_ && told(&Listener::progress, what_, done / total_, note))
+    next_told_ = now + std::chrono::milliseconds(100);
   if (now < next_ || !logger().should_log(spdlog::level::info)) return;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const double rate = (done - first_) / elapsed;

@@ -54,6 +54,7 @@ void add_diagnose(CLI::App& app);
 void add_blind(CLI::App& app);
 void add_sweep_run(CLI::App& app);   // the process of one run; not for users
 void add_blind_case(CLI::App& app);  // the process of one case; not for users
+void add_manual(CLI::App& app);      // pages and completions for installation
 void add_pipette(CLI::App& app);
 void add_track(CLI::App& app);
 void add_doctor(CLI::App& app);

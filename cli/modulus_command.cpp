@@ -5,7 +5,7 @@
 
 #include "base/progress.h"
 #include "cli/command.h"
-#include "dem_core/linear/linear_response.h"
+#include "dem_core/linear/linear_response_json.h"
 #include "effects/compress.h"
 #include "effects/list.h"
 #include "packing/measurement.h"
@@ -19,32 +19,6 @@ struct Options {
   fs::path packing, sample;
   double strain = 0.03;
 };
-
-nlohmann::ordered_json to_json(const ContactCount& count) {
-  return {{"bonds", count.bonds},
-          {"touching_pairs", count.touching},
-          {"beads_on_bottom_platen", count.bottom},
-          {"beads_on_top_platen", count.top},
-          {"sliding", count.sliding},
-          {"breaking_bonds", count.breaking}};
-}
-
-nlohmann::ordered_json to_json(const LinearResponse& response, const Simulation& simulation, double strain) {
-  return {
-      {"linear_modulus_pa", response.modulus},
-      {"poisson_ratio", response.poisson_ratio},
-      {"strain", strain},
-      {"stress_pa", response.stress},
-      {"contacts", to_json(response.contacts)},
-      {"holds", response.holds()},
-      {"reasons", response.reasons},
-      {"effect_on_modulus", {{"sliding", response.sliding_effect}, {"carried_load", response.load_effect}}},
-      {"search", {{"rounds", response.rounds}, {"unsettled_contacts", response.unsettled}}},
-      {"solver", {{"iterations", response.iterations}, {"residual", response.residual}}},
-      {"beads", simulation.beads.size()},
-      {"specimen",
-       {{"height_um", 1e6 * simulation.initial_height}, {"section_mm2", 1e6 * simulation.section}}}};
-}
 
 std::string in_words(const LinearResponse& response, double strain) {
   std::string text = fmt::format("E = {:.2f} MPa at {:.2f} % of platen strain, Poisson ratio {:.3f}",

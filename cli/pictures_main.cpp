@@ -24,6 +24,7 @@ void add_commands(CLI::App& app) {
   add_sweep_run(app);
   add_blind_case(app);
   add_formats(app);
+  add_manual(app);
 }
 
 }  // namespace pendular::cli

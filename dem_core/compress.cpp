@@ -92,7 +92,7 @@ class Test {
     Simulation& s = state_.simulation;
     program_.drive(s, state_.platen);
     stepper_.step();
-    if (evolution_.change && s.steps % steps_per_change_ == 0)
+    if (evolution_.any() && s.steps % steps_per_change_ == 0)
       stepper_.change_bonds(evolution_, static_cast<double>(steps_per_change_) * s.dt);
     require_finite();
     auto& open = state_.open_row;
@@ -125,7 +125,7 @@ class Test {
   bool relax_by(const Increment& increment) {
     Simulation& s = state_.simulation;
     if (!compress_and_relax(s, stepper_, increment)) return false;
-    if (!evolution_.change) return true;
+    if (!evolution_.any()) return true;
     stepper_.change_bonds(evolution_, increment.strain * s.initial_height / program_.speed());
     return come_to_rest(s, stepper_, increment.unbalanced).has_value();
   }

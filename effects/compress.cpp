@@ -68,20 +68,32 @@ void change_stiffness(Simulation& simulation, const ActualSpecimen& specimen) {
 BondEvolution evolution_of(const ActualSpecimen& specimen, const std::vector<Active>& active) {
   struct Part {
     std::function<void(const BondMoment&)> change;
+    std::function<void(std::span<const BondMoment>)> change_all;
     std::size_t first;
   };
-  std::vector<Part> parts;
+  std::vector<Part> parts, parts_of_all;
   BondEvolution evolution;
   for (const auto& [effect, theta, draws] : active) {
-    if (!effect->evolution) continue;
-    parts.push_back({effect->evolution(specimen, theta), evolution.memory});
+    if (effect->evolution) parts.push_back({effect->evolution(specimen, theta), {}, evolution.memory});
+    if (effect->evolution_of_all)
+      parts_of_all.push_back({{}, effect->evolution_of_all(specimen, theta), evolution.memory});
     evolution.memory += effect->memory;
   }
+  const auto from = [](const BondMoment& bond, std::size_t first) {
+    return BondMoment{bond.stretch, bond.shear,      bond.height,  bond.elapsed,
+                      bond.normal,  bond.properties, bond.history, bond.memory + first};
+  };
   if (!parts.empty())
-    evolution.change = [parts](const BondMoment& bond) {
-      for (const auto& [change, first] : parts)
-        change({bond.stretch, bond.shear, bond.height, bond.elapsed, bond.normal, bond.properties,
-                bond.history, bond.memory + first});
+    evolution.change = [parts, from](const BondMoment& bond) {
+      for (const Part& part : parts) part.change(from(bond, part.first));
+    };
+  if (!parts_of_all.empty())
+    evolution.change_all = [parts_of_all, from](std::span<const BondMoment> bonds) {
+      for (const Part& part : parts_of_all) {
+        std::vector<BondMoment> own;
+        for (const BondMoment& bond : bonds) own.push_back(from(bond, part.first));
+        part.change_all(own);
+      }
     };
   return evolution;
 }

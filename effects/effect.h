@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -111,9 +112,18 @@ struct Effect {
   /// What the instruments make of the rows.
   std::function<void(std::vector<CurveRow>& rows, const Gauge& gauge, double theta)> rows = nullptr;
 
+  /// The same as `evolution` of all standing bonds at once, sorted by their number, after that of single
+  /// ones.
+  std::function<std::function<void(std::span<const BondMoment>)>(const ActualSpecimen& specimen,
+                                                                 double theta)>
+      evolution_of_all = nullptr;
+  /// Of an effect that is no part of the library: what it does, as text or a digest; part of its runs' hash.
+  std::string code = {};
+
   /// Whether it changes nothing but what instruments read.
   bool reads_only() const {
-    return rows && !sample && !beads && !truth && !packing && !body && !simulation && !evolution;
+    return rows && !sample && !beads && !truth && !packing && !body && !simulation && !evolution &&
+           !evolution_of_all;
   }
 };
 

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/model_version.h"
+#include "effects/list.h"
 #include "packing/measurement.h"
 #include "packing/vtp.h"
 
@@ -47,11 +48,14 @@ std::string request_text(const RunRequest& request) {
   nlohmann::ordered_json sample;
   for (const auto& [key, value] : sample_settings(request.sample))
     std::visit([&, name = key](const auto& held) { sample[name] = held; }, value);
-  const nlohmann::ordered_json json = {{"model", kModelVersion},
-                                       {"packing", packing},
-                                       {"seed", request.seed},
-                                       {"keep", request.keep_all ? "all" : "curve"},
-                                       {"sample", sample}};
+  nlohmann::ordered_json json = {{"model", kModelVersion},
+                                 {"packing", packing},
+                                 {"seed", request.seed},
+                                 {"keep", request.keep_all ? "all" : "curve"},
+                                 {"sample", sample}};
+  for (const auto& effect : effects::all_effects())
+    if (!effect.code.empty() && request.sample.effects.contains(effect.id))
+      json["code"][effect.id] = effect.code;
   return json.dump(2) + "\n";
 }
 

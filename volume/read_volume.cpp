@@ -10,7 +10,7 @@
 namespace pendular {
 namespace {
 
-void check_numbers(std::span<const Grey<float>> pixels, const Volume& volume, const fs::path& path) {
+void check_numbers(std::span<const Grey<float>> pixels, const Volume& volume, const std::string& where) {
   std::atomic<std::size_t> bad{pixels.size()};
   for_blocks(pixels.size(), 1 << 20, [&](std::size_t first, std::size_t last) {
     std::size_t here = first;
@@ -19,23 +19,21 @@ void check_numbers(std::span<const Grey<float>> pixels, const Volume& volume, co
     }
   });
   if (bad < pixels.size())
-    bad_input("{}: voxel ({}, {}, {}): found NaN or infinity, expected a number", path.string(),
-              bad % volume.size[0], bad / volume.size[0] % volume.size[1],
-              bad / (volume.size[0] * volume.size[1]));
-}
-
-/// Every grey value a number, and more than one of them.
-void check_pixels(const Volume& volume, const fs::path& path) {
-  with_pixels(volume, [&]<typename T>(std::span<const Grey<T>> pixels) {
-    if constexpr (std::is_same_v<T, float>) check_numbers(pixels, volume, path);
-    const T grey = pixels[0];
-    if (std::none_of(pixels.begin(), pixels.end(), [&](T other) { return other != grey; }))
-      bad_input("{}: found one grey value throughout ({}), expected beads", path.string(), grey);
-  });
-  release(volume);
+    bad_input("{}: voxel ({}, {}, {}): found NaN or infinity, expected a number", where, bad % volume.size[0],
+              bad / volume.size[0] % volume.size[1], bad / (volume.size[0] * volume.size[1]));
 }
 
 }  // namespace
+
+void check_pixels(const Volume& volume, const std::string& where) {
+  with_pixels(volume, [&]<typename T>(std::span<const Grey<T>> pixels) {
+    if constexpr (std::is_same_v<T, float>) check_numbers(pixels, volume, where);
+    const T grey = pixels[0];
+    if (std::none_of(pixels.begin(), pixels.end(), [&](T other) { return other != grey; }))
+      bad_input("{}: found one grey value throughout ({}), expected beads", where, grey);
+  });
+  release(volume);
+}
 
 fs::path volume_place(const fs::path& path) {
   return hdf5_file(path).value_or(path);
@@ -55,7 +53,7 @@ Volume read_volume(const fs::path& path, const ReadOptions& options) {
   if (!format)
     bad_input("{}: found extension '{}', expected {}", path.string(), lower_extension(path), format_names());
   Volume volume = format->read(path, options);
-  check_pixels(volume, path);
+  check_pixels(volume, path.string());
   return volume;
 }
 

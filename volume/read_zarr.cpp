@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/error.h"
 #include "base/inflate.h"
 #include "base/interrupt.h"
 #include "base/parallel.h"

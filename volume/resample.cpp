@@ -70,7 +70,7 @@ Volume resampled(const Volume& volume, const std::array<double, 3>& edges) {
     result.pixels = with_pixels(result, [&]<typename T>(std::span<const Grey<T>> pixels) -> Volume::Pixels {
       return along(pixels, result.size, axis, edges[axis]);
     });
-    result.file = nullptr;
+    result.file = nullptr, result.memory = nullptr;
   }
   return result;
 }

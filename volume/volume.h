@@ -40,9 +40,10 @@ struct Volume {
   std::array<std::size_t, 3> size{};  ///< voxels along x, y, z
   double spacing = 1e-6;              ///< edge of a voxel, m
   Vec3 origin = Vec3::Zero();         ///< centre of voxel (0, 0, 0), m
-  Pixels pixels;                      ///< size[0]·size[1]·size[2] of them; with a `file`, none of that type
+  Pixels pixels;  ///< size[0]·size[1]·size[2] of them; with a `file` or `memory`, none of that type
   std::shared_ptr<const MappedFile> file = nullptr;  ///< where set, the pixels are there, from first_byte on
   std::size_t first_byte = 0;
+  std::shared_ptr<const void> memory = nullptr;  ///< where set, the pixels are there: another owner's
 
   std::size_t voxels() const { return size[0] * size[1] * size[2]; }
 };
@@ -53,6 +54,7 @@ decltype(auto) with_pixels(const Volume& volume, Function&& f) {
   return std::visit(
       [&]<typename T>(const std::vector<T>& own) -> decltype(auto) {
         const void* first = own.data();
+        if (volume.memory) first = volume.memory.get();
         if (volume.file) first = volume.file->data() + volume.first_byte;
         return f(std::span(static_cast<const Grey<T>*>(first), volume.voxels()));
       },
@@ -86,6 +88,8 @@ Volume read_volume(const fs::path& path, const ReadOptions& options = {});
 
 /// The file or folder that a volume's name means, without the dataset that it may name.
 fs::path volume_place(const fs::path& path);
+/// BadInput, opening with `where`, for a grey value that is no number, or one grey value throughout.
+void check_pixels(const Volume& volume, const std::string& where);
 
 /// The files that a volume is read from: the one that is named and those that it names, or a folder's slices.
 std::vector<fs::path> volume_files(const fs::path& path);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 
 #include "dem_core/simulation.h"
 
@@ -24,9 +25,16 @@ struct BondMoment {
 struct BondEvolution {
   std::size_t memory = 0;  ///< numbers that each bond remembers
   std::function<void(const BondMoment&)> change;
+  std::function<void(std::span<const BondMoment>)> change_all = {};  ///< the same of all at once, after it
+
+  bool any() const { return change || change_all; }
 };
 
 /// Changes one bond, and books the change of its energy as Work::given.
 void change_bond(Simulation& simulation, Pair& pair, const BondEvolution& evolution, double elapsed);
+
+/// The same of all standing bonds at once; `pairs` are theirs, sorted by bond.
+void change_all_bonds(Simulation& simulation, std::span<Pair* const> pairs, const BondEvolution& evolution,
+                      double elapsed);
 
 }  // namespace pendular

@@ -355,12 +355,26 @@ void Stepper::break_bonds() {
       change_pair(chunk, p, [](Simulation& s, Pair& pair) { break_bond(s, pair); });
 }
 
-void Stepper::change_bonds(const BondEvolution& evolution, double elapsed) {
+/// Calls f(chunk, place) for every bonded pair of the table.
+template <typename Function>
+void Stepper::for_bonded(const Function& f) {
   for (const auto& chunk : chunks_)
-    for (std::size_t p = chunk.first_block * kBlock; p < chunk.last_block * kBlock; ++p) {
-      if (pair_of_[p] < 0 || simulation_.pairs[pair_of_[p]].bond < 0) continue;
+    for (std::size_t p = chunk.first_block * kBlock; p < chunk.last_block * kBlock; ++p)
+      if (pair_of_[p] >= 0 && simulation_.pairs[pair_of_[p]].bond >= 0) f(chunk, p);
+}
+
+void Stepper::change_bonds(const BondEvolution& evolution, double elapsed) {
+  if (evolution.change)
+    for_bonded([&](const Chunk& chunk, std::size_t p) {
       change_pair(chunk, p, [&](Simulation& s, Pair& pair) { change_bond(s, pair, evolution, elapsed); });
-    }
+    });
+  if (!evolution.change_all) return;
+  store();
+  std::vector<Pair*> bonded;
+  for_bonded([&](const Chunk&, std::size_t p) { bonded.push_back(&simulation_.pairs[pair_of_[p]]); });
+  std::sort(bonded.begin(), bonded.end(), [](const Pair* a, const Pair* b) { return a->bond < b->bond; });
+  change_all_bonds(simulation_, bonded, evolution, elapsed);
+  for_bonded([&](const Chunk& chunk, std::size_t p) { load_pair(chunk, p); });
 }
 
 void Stepper::press_platens(Chunk& chunk) {

@@ -59,6 +59,8 @@ class Stepper {
   ContactBlock* contact_of(const Chunk& chunk, std::size_t at);
   void advance_chunk(std::size_t c);
   void press_platens(Chunk& chunk);
+  template <typename Function>
+  void for_bonded(const Function& f);
   template <typename Change>
   void change_pair(const Chunk& chunk, std::size_t at, const Change& change);
   void break_bonds();
