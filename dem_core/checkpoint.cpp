@@ -34,6 +34,12 @@ struct Reader {
     std::memcpy(&value, bytes.data() + at, sizeof value);
     at += sizeof value;
   }
+  void scalar(bool& value) {
+    unsigned char byte = 0;
+    scalar(byte);
+    if (byte > 1) throw BadInput("found a flag that is neither 0 nor 1");
+    value = byte == 1;
+  }
   std::size_t length(std::size_t) {
     std::size_t size = 0;
     scalar(size);
@@ -174,7 +180,12 @@ RunState read_checkpoint(const fs::path& path, const std::string& identity) {
         path.string());
   RunState state;
   Reader reader{bytes, payload_at};
-  visit(reader, state);
+  try {
+    visit(reader, state);
+    if (reader.at != bytes.size()) throw BadInput("goes on beyond its end");
+  } catch (const BadInput& error) {
+    bad_input("{}: checkpoint is damaged: {}", path.string(), error.what());
+  }
   return state;
 }
 

@@ -89,6 +89,26 @@ TEST(Checkpoint, BothDamagedIsBadInput) {
   EXPECT_THROW(kept_checkpoint(folder.path(), "work"), BadInput);
 }
 
+TEST(Checkpoint, APayloadThatLiesUnderARightChecksumIsBadInput) {
+  ScratchFolder folder;
+  const fs::path path = folder / "checkpoint";
+  write_checkpoint(path, state_with(1), "work");
+  const std::string good = read_text(path);
+  const std::size_t digest = good.find("work") + 5, payload = digest + 65;
+  const std::string bytes = good.substr(payload);
+  std::string no_flag = bytes;
+  no_flag[bytes.size() - 29] = 2;  // `finished`, before the three doubles and the count of the open row
+  for (const std::string& lie : {bytes + "x", bytes.substr(0, bytes.size() - 1), no_flag}) {
+    write_text(path, good.substr(0, digest) + sha256(lie) + "\n" + lie);
+    try {
+      read_checkpoint(path, "work");
+      ADD_FAILURE() << "accepted";
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(Checkpoint, OtherWorkIsBadInput) {
   ScratchFolder folder;
   keep_two(folder.path());
