@@ -148,11 +148,11 @@ bool is_made(const CaseFolders& folders, const Split& split, const CasePlan& pla
 
 void make_case(const CaseFolders& folders, const Split& split, const CasePlan& plan) {
   const fs::path part = folders.work(plan.name) / "case", done = folders.open(plan.name);
+  for (const fs::path& inner : {folders.work(plan.name), folders.sealed(plan.name), done})
+    make_inner_folder(inner.parent_path());
   fs::remove_all(folders.work(plan.name));
   fs::remove_all(done);
   make_folder(part);
-  make_folder(folders.sealed(plan.name).parent_path());
-  make_folder(done.parent_path());
 
   const SharedPacking& packing = packing_of(split, plan);
   const Tested a = tested(folders, split, plan, "A", believed_a(split, packing), 0, part);

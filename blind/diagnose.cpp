@@ -12,7 +12,8 @@ namespace {
 
 std::vector<std::string> case_names(const CaseFolders& folders) {
   const fs::path cases = folders.root / "cases";
-  if (!fs::is_directory(cases)) bad_input("{}: no such folder, expected one of cases", cases.string());
+  std::error_code error;
+  if (!fs::is_directory(cases, error)) bad_input("{}: no such folder, expected one of cases", cases.string());
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(cases))
     if (fs::exists(entry.path() / "experiment.toml")) names.push_back(entry.path().filename().string());
@@ -48,6 +49,7 @@ std::vector<std::string> diagnose_cases(const CaseFolders& folders, const Diagno
   for (const auto& name : all) {
     const fs::path report = request.reports / name;
     if (fs::exists(report / "diagnosis.json")) continue;
+    make_inner_folder(report);
     Job job{request.diagnose.with({(folders.open(name) / "experiment.toml").string(), "-o", report.string(),
                                    "--store", request.store.string()}),
             request.reports / (name + ".log")};

@@ -39,7 +39,7 @@ std::vector<Point> points_of(const Options& options, const std::string& name,
   const sweep::Plan plan = sweep::plan_of(file);
   const auto outcomes = make_runs(options.making, options.common, file.name, plan.requests);
   const fs::path tables = options.common.out / name;
-  make_folder(tables);
+  make_inner_folder(tables);
   Provenance from = provenance(options.common, {path, file.sample});
   from.seed = file.seed;
   sweep::write_tables(tables, plan, outcomes, from);

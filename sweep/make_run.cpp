@@ -105,6 +105,7 @@ void make(Store& store, const std::string& hash) {
   if (content_hash(request) != hash)
     bad_input("run {}: was asked for by another version of the model, this is {}", hash, kModelVersion);
   const fs::path final_folder = store.run_folder(hash), folder = store.part_folder(hash);
+  if (fs::exists(final_folder)) make_inner_folder(final_folder);
   if (fs::exists(final_folder)) return book(store, hash, request, std::nullopt);
   make_inner_folder(folder);
   write_text(folder / "request.json", request_text(request));

@@ -221,9 +221,9 @@ Experiment planned_experiment(const Experiment& beliefs, const fs::path& folder)
     beads[k].diameter += kUsualCentreError * random_normal(kPlannedSeed, 4 * k + 3);
     beads[k].sigma_centre = beads[k].sigma_diameter = kUsualCentreError;
   }
-  make_folder(folder);
+  make_inner_folder(folder);
   Experiment experiment = beliefs;
-  const fs::path table = folder / (beliefs.name + "_beads.csv");
+  const fs::path table = folder / (sha256(sample_text(beliefs.sample)).substr(0, 16) + "_beads.csv");
   write_beads(table, beads, {});
   Observation test = bare(kinds::compression(), "compression");
   test.beads = table;

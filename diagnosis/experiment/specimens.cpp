@@ -103,7 +103,7 @@ sweep::PackingSource beads_of_member(const Condition& condition, int member, con
                   s.specimen.height, s.bridges.cutoff, s.beads.diameter, measured_otherwise(changed),
                   condition.network.empty() ? "" : fmt::format(" {}", sha256_of(condition.network))));
   const fs::path path = folder / (name.substr(0, 16) + ".vtp");
-  make_folder(folder);
+  make_inner_folder(folder);
   if (!fs::exists(path)) write_packing(path, packing);
   return sweep::packing_file(path);
 }
