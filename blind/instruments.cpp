@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/csv.h"
 #include "base/error.h"
 #include "blind/logger.h"
 #include "blind/noise.h"
@@ -177,7 +178,11 @@ class Laboratory {
 
 std::string csv_text(const Table& table) {
   std::string text = fmt::format("{}\n", fmt::join(table.names, ","));
-  for (const auto& row : table.rows) text += fmt::format("{:.6g}\n", fmt::join(row, ","));
+  for (const auto& row : table.rows) {
+    std::vector<std::string> cells;
+    for (const double value : row) cells.push_back(csv_cell(value, 6));
+    text += fmt::format("{}\n", fmt::join(cells, ","));
+  }
   return text;
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/number_cell.h"
 #include "blind/score_page.h"
 
 namespace pendular::blind {
@@ -148,10 +149,11 @@ std::string case_row(const Verdict& verdict) {
       "{},{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{},{},{},{},{},{:.4g},{:.4g},{},{},{},{},{},{},{},{}"
       "\n",
       truth.name, to_string(truth.stratum), verdict.answer, thetas, truth.packing, truth.law,
-      truth.wrong_belief, verdict.said ? "done" : "failed", verdict.top(), verdict.probability(verdict.top()),
-      verdict.probability(verdict.answer), verdict.probability("unknown"), set, alike,
-      verdict.in_set(verdict.answer) ? 1 : 0, verdict.exact() ? 1 : 0, verdict.confidently_wrong() ? 1 : 0,
-      log_score(verdict), brier_score(verdict), cell(claim.magnitude), cell(low), cell(high), cell(withheld),
+      truth.wrong_belief, verdict.said ? "done" : "failed", verdict.top(),
+      NumberCell{verdict.probability(verdict.top())}, NumberCell{verdict.probability(verdict.answer)},
+      NumberCell{verdict.probability("unknown")}, set, alike, verdict.in_set(verdict.answer) ? 1 : 0,
+      verdict.exact() ? 1 : 0, verdict.confidently_wrong() ? 1 : 0, NumberCell{log_score(verdict)},
+      NumberCell{brier_score(verdict)}, cell(claim.magnitude), cell(low), cell(high), cell(withheld),
       cell(retuned), cell(wrong), cell(closable), failure);
 }
 

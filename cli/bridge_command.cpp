@@ -5,8 +5,10 @@
 #include <cmath>
 #include <memory>
 
+#include "base/columns.h"
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/number_cell.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/sample.h"
@@ -68,6 +70,9 @@ double to_number(const std::string& option, const std::string& word, const std::
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
     bad_list(option, text);
+  std::string column = option.substr(2);  // --E-pa is E_pa
+  std::replace(column.begin(), column.end(), '-', '_');
+  require_in_range("bridge", option, range_of(column), value);
   return value;
 }
 
@@ -175,9 +180,11 @@ std::string csv_of(const std::vector<Row>& rows, const Provenance& where_from) {
         ".6g},"
         "{:.6g},{:.6g}\n",
         1e6 * row.body.neck_diameter, 1e6 * row.body.diameter_i, 1e6 * row.body.gap,
-        row.polymer.youngs_modulus, row.polymer.poisson_ratio, k.normal, k.tangential, k.bending, k.twisting,
-        k.error_estimate, 1e6 * row.body.diameter_j, k.coupling, k.stress.mean_average,
-        k.stress.axial_average, k.stress.mean_centre, k.stress.axial_centre, k.stress.axial_rim);
+        row.polymer.youngs_modulus, row.polymer.poisson_ratio, NumberCell{k.normal}, NumberCell{k.tangential},
+        NumberCell{k.bending}, NumberCell{k.twisting}, NumberCell{k.error_estimate},
+        1e6 * row.body.diameter_j, NumberCell{k.coupling}, NumberCell{k.stress.mean_average},
+        NumberCell{k.stress.axial_average}, NumberCell{k.stress.mean_centre},
+        NumberCell{k.stress.axial_centre}, NumberCell{k.stress.axial_rim});
   }
   return text;
 }

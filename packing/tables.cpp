@@ -10,6 +10,7 @@
 
 #include "base/csv.h"
 #include "base/error.h"
+#include "base/number_cell.h"
 #include "packing/check.h"
 
 namespace pendular {
@@ -66,8 +67,10 @@ void write_beads(const fs::path& path, const std::vector<Bead>& beads, const Pro
   text += "bead_id,x_um,y_um,z_um,diameter_um,sigma_centre_um,sigma_diameter_um,quality,boundary\n";
   for (const auto& b : beads)
     fmt::format_to(std::back_inserter(text), "{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6g},{}\n", b.id,
-                   b.centre.x() / um, b.centre.y() / um, b.centre.z() / um, b.diameter / um,
-                   b.sigma_centre / um, b.sigma_diameter / um, b.quality, b.boundary ? 1 : 0);
+                   NumberCell{b.centre.x() / um}, NumberCell{b.centre.y() / um},
+                   NumberCell{b.centre.z() / um}, NumberCell{b.diameter / um},
+                   NumberCell{b.sigma_centre / um}, NumberCell{b.sigma_diameter / um}, NumberCell{b.quality},
+                   b.boundary ? 1 : 0);
   write_text(path, text);
 }
 
@@ -106,8 +109,8 @@ void write_bridges(const fs::path& path, const std::vector<Bead>& beads, const s
   for (const auto& b : bridges)
     fmt::format_to(std::back_inserter(text), "{},{},{:.6f},{:.6f},{:.6g},{:.6f},{:.6f},{}\n",
                    beads.at(static_cast<std::size_t>(b.i)).id, beads.at(static_cast<std::size_t>(b.j)).id,
-                   b.gap / um, b.sigma_gap / um, b.probability, b.diameter / um, b.sigma_diameter / um,
-                   to_string(b.state));
+                   NumberCell{b.gap / um}, NumberCell{b.sigma_gap / um}, NumberCell{b.probability},
+                   NumberCell{b.diameter / um}, NumberCell{b.sigma_diameter / um}, to_string(b.state));
   write_text(path, text);
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "base/number_cell.h"
 #include "micromechanics/bridge_fe.h"
 #include "reproduction/paper.h"
 #include "reproduction/sections.h"
@@ -51,7 +52,8 @@ Section bridges_section(const Desk& desk) {
       curve.diameter_um.push_back(1e6 * neck);
       curve.normal.push_back(k.normal);
       curve.tangential.push_back(k.tangential);
-      csv += fmt::format("{:g},{:g},{:.6g},{:.6g}\n", 1e6 * gap, 1e6 * neck, k.normal, k.tangential);
+      csv += fmt::format("{:g},{:g},{:.6g},{:.6g}\n", 1e6 * gap, 1e6 * neck, NumberCell{k.normal},
+                         NumberCell{k.tangential});
     }
   }
   section.comparisons.push_back(pipette("Micropipette tests, kn", p.normal_low, p.normal_high,

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "base/csv.h"
 #include "micromechanics/stiffness.h"
 #include "reproduction/paper.h"
 #include "reproduction/sections.h"
@@ -53,10 +54,10 @@ std::string csv_of(const std::vector<Entry>& entries) {
   std::string csv =
       "gap_um,E_p_pa,W,kn_n_per_m,modulus_pa,modulus_sd_pa,runs,slope_at_2_to_3_percent_pa,slope_sd_pa,"
       "linear_limit,linear_limit_sd\n";
-  const auto cell = [](double v) { return std::isfinite(v) ? fmt::format("{:.6g}", v) : ""; };
+  const auto cell = [](double value) { return csv_cell(value, 6); };
   for (const auto& e : entries)
-    csv += fmt::format("{:g},{:g},{:g},{:.6g},{},{},{},{},{},{},{}\n", 1e6 * e.gap, e.polymer, e.content,
-                       e.normal_stiffness, cell(e.modulus.mean), cell(e.modulus.sd), e.modulus.count,
+    csv += fmt::format("{:g},{:g},{:g},{},{},{},{},{},{},{},{}\n", 1e6 * e.gap, e.polymer, e.content,
+                       cell(e.normal_stiffness), cell(e.modulus.mean), cell(e.modulus.sd), e.modulus.count,
                        cell(e.fixed.mean), cell(e.fixed.sd), cell(e.limit.mean), cell(e.limit.sd));
   return csv;
 }

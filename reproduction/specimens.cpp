@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "base/error.h"
+#include "base/number_cell.h"
 #include "dem_core/compress.h"
 #include "dem_core/simulation.h"
 #include "micromechanics/stiffness.h"
@@ -134,7 +135,7 @@ Section coordination_section(const Desk& desk, sweep::Store& store, std::span<co
     for (const auto& [cutoff, z] : statistics.coordination_curve) {
       curve.x.push_back(cutoff / mean);
       curve.y.push_back(z);
-      csv += fmt::format("{},{:.6g},{:.6g}\n", s + 1, cutoff / mean, z);
+      csv += fmt::format("{},{:.6g},{:.6g}\n", s + 1, NumberCell{cutoff / mean}, NumberCell{z});
     }
   }
   if (series.empty()) return section;

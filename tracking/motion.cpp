@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "base/median.h"
+#include "base/number_cell.h"
 #include "packing/bridges.h"
 #include "tracking/following.h"
 
@@ -126,13 +127,13 @@ void write_motion(const fs::path& path, const std::vector<Bead>& before, const s
   for (std::size_t k = 0; k < motion.matches.size(); ++k) {
     const BeadMatch& match = motion.matches[k];
     const Vec3 at = 1e6 * motion.start[k], moved = 1e6 * motion.displacement[k];
-    fmt::format_to(out, "{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", motion.strain,
-                   before[static_cast<std::size_t>(match.before)].id, at.x(), at.y(), at.z(), moved.x(),
-                   moved.y(), moved.z());
-    if (stated) fmt::format_to(out, ",{:.4f}", 1e6 * motion.sigma[k]);
+    fmt::format_to(out, "{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", NumberCell{motion.strain},
+                   before[static_cast<std::size_t>(match.before)].id, NumberCell{at.x()}, NumberCell{at.y()},
+                   NumberCell{at.z()}, NumberCell{moved.x()}, NumberCell{moved.y()}, NumberCell{moved.z()});
+    if (stated) fmt::format_to(out, ",{:.4f}", NumberCell{1e6 * motion.sigma[k]});
     fmt::format_to(out, ",{},{:.3f},{:.6g},{:.6g},{}\n", after[static_cast<std::size_t>(match.after)].id,
-                   match.score, motion.local[k].shear, motion.local[k].volumetric,
-                   motion.loose[k] ? "loose" : "followed");
+                   NumberCell{match.score}, NumberCell{motion.local[k].shear},
+                   NumberCell{motion.local[k].volumetric}, motion.loose[k] ? "loose" : "followed");
   }
   write_text(path, text);
 }

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "base/number_cell.h"
+
 namespace pendular::pipette {
 namespace {
 
@@ -50,10 +52,11 @@ std::string to_csv(const Measurement& m, const Provenance& provenance) {
   for (std::size_t k = 0; k < m.frames.size(); ++k) {
     const FrameRecord& frame = m.frames[k];
     if (m.curve.used[k])
-      text += fmt::format("{},{:.5f},{:.7e},{:.5f},1\n", frame.time, 1e6 * m.curve.extension[k],
-                          m.curve.force[k], frame.score);
+      text += fmt::format("{},{:.5f},{:.7e},{:.5f},1\n", NumberCell{frame.time},
+                          NumberCell{1e6 * m.curve.extension[k]}, NumberCell{m.curve.force[k]},
+                          NumberCell{frame.score});
     else
-      text += fmt::format("{},,,{:.5f},0\n", frame.time, frame.score);
+      text += fmt::format("{},,,{:.5f},0\n", NumberCell{frame.time}, NumberCell{frame.score});
   }
   return text;
 }

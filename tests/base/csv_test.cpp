@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/number_cell.h"
 #include "scratch.h"
 
 namespace pendular {
@@ -55,6 +56,12 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Csv, MissingFile) {
   EXPECT_THROW(read_csv("/nonexistent/t.csv", {"a"}), BadInput);
+}
+
+TEST(Csv, NumbersThatMeanNothingAreEmptyCells) {
+  EXPECT_EQ(fmt::format("{:.3f},{},{:.2e},{:.6g}", NumberCell{1.5}, NumberCell{std::nan("")},
+                        NumberCell{-HUGE_VAL}, NumberCell{2.0}),
+            "1.500,,,2");
 }
 
 TEST(Csv, CellsReadBackAsTheyWereWritten) {

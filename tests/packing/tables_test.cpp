@@ -51,6 +51,20 @@ TEST(Tables, BridgesRoundTrip) {
   }
 }
 
+TEST(Tables, NumbersThatMeanNothingAreEmptyCells) {
+  const ScratchFolder scratch;
+  Packing packing = small_packing();
+  packing.beads[0].sigma_centre = std::numeric_limits<double>::quiet_NaN();
+  packing.bridges[0].sigma_gap = std::numeric_limits<double>::infinity();
+  write_beads(scratch / "beads.csv", packing.beads, packing.provenance);
+  write_bridges(scratch / "bridges.csv", packing.beads, packing.bridges, packing.provenance);
+  for (const char* name : {"beads.csv", "bridges.csv"}) {
+    const std::string text = read_text(scratch / name);
+    EXPECT_NE(text.find(",,"), std::string::npos) << text;
+    for (const char* word : {"nan", "inf"}) EXPECT_EQ(text.find(word), std::string::npos) << text;
+  }
+}
+
 TEST(Tables, MissingOptionalColumnsAndForeignOnes) {
   const ScratchFolder scratch;
   write_text(scratch / "beads.csv",
