@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "cli/option_checks.h"
 
 namespace pendular::cli {
 namespace {
@@ -39,7 +40,7 @@ void add_common(CLI::App& command, Common& common, const std::string& out_help,
   command
       .add_option("--threads", common.threads, "Threads to use; 0: one per core. Results do not depend on it")
       ->check(CLI::Range(0, 4096));
-  command.add_option("--seed", common.seed, "Seed of everything random");
+  command.add_option("--seed", common.seed, "Seed of everything random")->check(whole_number());
   command.add_flag("--quiet", common.quiet, "Say nothing but warnings and errors");
   common.out = out_default;
   auto* out = command.add_option("-o,--out", common.out, out_help);

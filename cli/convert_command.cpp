@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "cli/command.h"
+#include "cli/option_checks.h"
 #include "packing/exchange.h"
 #include "packing/exchange_run.h"
 #include "packing/polydata.h"
@@ -108,14 +109,14 @@ void add_convert(CLI::App& app) {
   command->add_option("--bridges", options->bridges,
                       "bridges.csv: read beside a csv input, written beside a csv output");
   command->add_option("--density-kg-m3", options->density, "Bead density in LAMMPS and LIGGGHTS files")
-      ->check(CLI::PositiveNumber)
+      ->check(within(1e-3, 1e6))
       ->capture_default_str();
   command
       ->add_option("--diameter-um", options->diameter_um,
                    "Bead diameter of an xyz input, or of spam's without radii")
-      ->check(CLI::PositiveNumber);
+      ->check(within(1e-3, 1e6));
   command->add_option("--voxel-um", options->voxel_um, "Voxel size of spam's tables")
-      ->check(CLI::PositiveNumber);
+      ->check(within(1e-3, 1e6));
   command->add_flag("--displaced", options->displaced,
                     "Beads where spam-ddic found them in the second scan, for `pendular track`");
   add_common(*command, options->common, "File to write");

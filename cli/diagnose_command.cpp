@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "base/temporary_folder.h"
 #include "cli/command.h"
+#include "cli/option_checks.h"
 #include "cli/picture_commands.h"
 #include "cli/run_making.h"
 #include "diagnosis/advice/planning.h"
@@ -151,7 +152,7 @@ void add_diagnose(CLI::App& app) {
   command
       ->add_option("--confidence", options->confidence,
                    "How often the set of explanations is to hold the truth, as replayed runs show it")
-      ->check(CLI::Range(0.5, 0.99))
+      ->check(within(0.5, 0.99))
       ->capture_default_str();
   command->add_option("--leave-out", options->leave_out, "Effects that are not considered, by their names")
       ->delimiter(',');

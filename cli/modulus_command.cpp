@@ -5,6 +5,7 @@
 
 #include "base/progress.h"
 #include "cli/command.h"
+#include "cli/option_checks.h"
 #include "dem_core/linear/linear_response_json.h"
 #include "effects/compress.h"
 #include "effects/list.h"
@@ -55,7 +56,7 @@ void add_modulus(CLI::App& app) {
   command->add_option("--sample", options->sample, "Sample file (TOML)")->required();
   command
       ->add_option("--strain", options->strain, "Platen strain from first touch at which contacts are closed")
-      ->check(CLI::Range(1e-6, 0.2))
+      ->check(within(1e-6, 0.2))
       ->capture_default_str();
   add_common(*command, options->common, "Result (.json)");
   command->callback([options] { run(*options); });

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include "base/progress.h"
 #include "cli/command.h"
+#include "cli/option_checks.h"
 #include "cli/picture_commands.h"
 #include "packing/bridges.h"
 #include "packing/tables.h"
@@ -145,7 +146,7 @@ void add_segment(CLI::App& app) {
   command->add_option("volume", options->volume, "Volume: " + format_names())->required();
   add_common(*command, options->common, "Beads (beads.csv); a summary goes beside it as .json");
   command->add_option("--voxel-um", options->voxel_um, "Edge of a voxel, um; overrides the header's")
-      ->check(CLI::PositiveNumber);
+      ->check(within(1e-3, 1e4));
   command->add_option("--size", options->size, "Raw data: voxels along x, y, z, as NX,NY,NZ")
       ->delimiter(',')
       ->expected(3)
@@ -159,7 +160,7 @@ void add_segment(CLI::App& app) {
           "--false-discoveries", options->false_discoveries,
           "Largest expected share of errors among pairs labelled bridge, and among those labelled none")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 0.5));
+      ->check(within(0.0, 0.5));
   command->add_flag("--calibrate-bridges", options->calibrate_bridges,
                     "Put necks of several sizes into the volume, and say which are found (in the summary)");
   command->add_option("--labels", options->labels, "Write each voxel's bead number (.mha or .tif)");
@@ -168,14 +169,14 @@ void add_segment(CLI::App& app) {
       ->add_option("--cutoff", options->segment.cutoff,
                    "Largest gap of a candidate bridge over the mean diameter")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(within(0.0, 1.0));
   command->add_option("--beads", options->tone, "Beads are brighter or darker than what surrounds them")
       ->capture_default_str()
       ->check(CLI::IsMember({"auto", "bright", "dark"}));
   command
       ->add_option("--min-diameter-um", options->min_diameter_um,
                    "Leave out beads smaller than this; without it, than a quarter of the typical one")
-      ->check(CLI::PositiveNumber);
+      ->check(within(1e-3, 1e5));
   command->callback([options] { run(*options); });
 }
 

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "cli/command.h"
+#include "cli/option_checks.h"
 #include "cli/picture_commands.h"
 #include "packing/bridges.h"
 #include "packing/statistics.h"
@@ -180,13 +181,13 @@ void add_track(CLI::App& app) {
   command
       ->add_option("--strain", options->track.strain,
                    "Engineering strain between the scans; without it, that of the beads at either end")
-      ->check(CLI::Range(-0.5, 0.9));
+      ->check(within(-0.5, 0.9));
   command
       ->add_option(
           "--reach", options->track.match.reach,
           "How far beads may be from where the even part of the motion brings them, in mean diameters")
       ->capture_default_str()
-      ->check(CLI::Range(0.1, 20.0));
+      ->check(within(0.1, 20.0));
   command->add_option("--pictures", options->pictures,
                       "Draw displacement and local strain, cut through the axis, into this folder");
   add_common(*command, options->common, "Displacements (track.csv)");

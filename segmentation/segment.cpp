@@ -127,7 +127,14 @@ void flag_boundaries(const Volume& volume, Segmentation& result) {
 
 BeadSearch search_with(const Volume& volume, const SegmentOptions& options) {
   std::optional<double> least_radius;
-  if (options.least_diameter) least_radius = 0.5 * *options.least_diameter / volume.spacing;
+  if (options.least_diameter) {
+    const auto longest = *std::max_element(volume.size.begin(), volume.size.end());
+    const double edge = volume.spacing * static_cast<double>(longest);
+    if (*options.least_diameter > edge)
+      bad_input("least bead diameter: found {:.6g} um, expected at most {:.6g} um, the volume's longest edge",
+                1e6 * *options.least_diameter, 1e6 * edge);
+    least_radius = 0.5 * *options.least_diameter / volume.spacing;
+  }
   return search_beads(volume, options.tone, least_radius,
                       [&](const BeadSearch& tried) { return ball_share(volume, tried, options.cutoff); });
 }
