@@ -1,10 +1,9 @@
 #include "diagnosis/inference/replay.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "base/random.h"
 #include "diagnosis/bank/mean_row.h"
 #include "diagnosis/inference/weigher.h"
@@ -81,7 +80,7 @@ std::vector<Replayed> replay(const Experiment& experiment, const BankPlan& plan,
                              const Priors& priors, int draws) {
   const auto members = features.members();
   std::vector<std::vector<Replayed>> of_members(members.size());
-  tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t m) {
+  for_blocks(members.size(), 1, [&](std::size_t m, std::size_t) {
     of_members[m] = replay_member(experiment, plan, features, priors, members[m], draws);
   });
   std::vector<Replayed> all;

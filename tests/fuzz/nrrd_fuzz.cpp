@@ -4,7 +4,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace pendular;
   static const bool slices = [] {
-    for (const char* name : {"s1.raw", "s2.raw", "s3.raw"}) write_text(fuzz::folder() / name, "12345678");
+    for (const char* name : {"s1.raw", "s2.raw", "s3.raw"}) fuzz::put(name, "12345678");
     return true;
   }();
   return fuzz::read_bytes(data, slices ? size : 0, "v.nhdr", [](const fs::path& path) {
