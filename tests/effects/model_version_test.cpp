@@ -1,4 +1,8 @@
-#include <fstream>
+#include <fmt/format.h>
+
+#include <array>
+#include <limits>
+#include <map>
 
 #include "base/csv.h"
 #include "base/model_version.h"
