@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <set>
 
@@ -64,11 +66,11 @@ constexpr const char* kProbe = R"(
   canvas.dispatchEvent(new PointerEvent("pointermove", {...at, clientX: at.clientX + 80}));
   canvas.dispatchEvent(new PointerEvent("pointerup", {...at, clientX: at.clientX + 80}));
   seen.turned = drawn();
+  set(".field", 1, "change");
+  seen.coloured = drawn();
   set(".moment", 0, "input");
   seen.slid = drawn();
   seen.slid_label = document.querySelector(".label").textContent;
-  set(".field", 1, "change");
-  seen.coloured = drawn();
   set(".section", "y", "change");
   seen.cut = drawn();
   set(".swell", 0, "input");
@@ -139,7 +141,8 @@ TEST(SpecimenInBrowser, DrawsPicksSlidesTurnsAndCuts) {
   SKIP_WITHOUT_CHROMIUM();
   const test::ScratchFolder scratch;
   const viz::SpecimenView view = run_view(planted(scratch));
-  const test::Seen seen = test::open_in_browser(scratch, page_of(scratch, view), kProbe);
+  const test::Seen seen =
+      test::open_in_browser(scratch, page_of(scratch, view), kProbe, "--window-size=700,600");
   EXPECT_EQ(seen.log, "");
   ASSERT_TRUE(seen.page.is_object());
   ASSERT_FALSE(seen.page.contains("error") && seen.page["error"].is_string()) << seen.page["error"];
@@ -151,9 +154,9 @@ TEST(SpecimenInBrowser, DrawsPicksSlidesTurnsAndCuts) {
   EXPECT_EQ(seen.page["fields"].size(), view.fields.size());
   const auto sum = [&](const char* name) { return seen.page[name]["sum"].get<std::int64_t>(); };
   EXPECT_NE(sum("turned"), sum("first"));
-  EXPECT_NE(sum("slid"), sum("turned"));
-  EXPECT_NE(sum("coloured"), sum("slid"));
-  EXPECT_NE(sum("cut"), sum("coloured"));
+  EXPECT_NE(sum("coloured"), sum("turned"));
+  EXPECT_NE(sum("slid"), sum("coloured"));
+  EXPECT_NE(sum("cut"), sum("slid"));
   EXPECT_GT(seen.page["bonds"]["share"], 0.0);
   EXPECT_LT(seen.page["bonds"]["share"], seen.page["cut"]["share"]);
   EXPECT_EQ(seen.page["picked"].size(), 3 + view.fields.size());
