@@ -83,8 +83,11 @@ Progress::~Progress() {
 void Progress::update(double done, const std::string& note) {
   if (first_ < 0.0) first_ = done;
   const auto now = Clock::now();
-  if (now >= next_told_ && told(&Listener::progress, what_, done / total_, note))
+  if (now >= next_told_) {
+    listened_ = told(&Listener::progress, what_, done / total_, note);
     next_told_ = now + std::chrono::milliseconds(100);
+  }
+  if (listened_) return;
   if (now < next_ || !logger().should_log(spdlog::level::info)) return;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const double rate = (done - first_) / elapsed;

@@ -48,7 +48,7 @@ class Progress {
   double first_ = -1.0;
   Clock::time_point start_, next_, next_told_;
   double interval_ = 2.0;
-  bool shown_ = false;
+  bool shown_ = false, listened_ = false;
 };
 
 }  // namespace pendular

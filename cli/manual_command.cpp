@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/progress.h"
@@ -73,8 +75,10 @@ std::string head(const std::string& title) {
 
 std::string synopsis(const std::string& name, const CLI::App& command) {
   std::string text = fmt::format("\\fB{}\\fR", roff(name));
-  for (const auto* option : options_of(command, true))
-    text += fmt::format(option->get_required() ? " \\fI{}\\fR" : " [\\fI{}\\fR]", roff(option->get_name()));
+  for (const auto* option : options_of(command, true)) {
+    const std::string argument = fmt::format("\\fI{}\\fR", roff(option->get_name()));
+    text += option->get_required() ? " " + argument : fmt::format(" [{}]", argument);
+  }
   return text + (options_of(command, false).empty() ? "" : " [\\fIoptions\\fR]");
 }
 
@@ -152,7 +156,7 @@ std::string bash(const CLI::App& app) {
 
 /// One line in single quotes, without what a specification of _arguments gives a meaning.
 std::string zsh_text(const std::string& text) {
-  std::string line = replaced(text_line(text.substr(0, text.find('\n'))), "'", "'\\''");
+  std::string line = replaced(pendular::text_line(text.substr(0, text.find('\n'))), "'", "'\\''");
   for (const char* special : {"[", "]", ":"}) line = replaced(line, special, std::string("\\") + special);
   return line;
 }

@@ -35,7 +35,7 @@ void Told::warn() const {
 }
 
 void Told::stop(const Interrupted& stopped) {
-  if (failed_) throw std::move(*failed_);
+  if (failed_ && !failed_->matches(PyExc_KeyboardInterrupt)) throw std::move(*failed_);
   if (PyErr_CheckSignals() != 0 && !PyErr_ExceptionMatches(PyExc_KeyboardInterrupt))
     throw py::error_already_set();
   PyErr_Clear();

@@ -46,7 +46,7 @@ NamedSample with(const NamedSample& named, const std::vector<SampleSetting>& set
     if (key == "W" && number)
       set_polymer_content(changed.sample, *number);
     else
-      set_sample_key(changed.sample, key, value, "sample");
+      set_sample_key(changed.sample, key, value, "sample: " + key);
   }
   changed.sample = whole_sample(sample_text(changed.sample), "sample");
   return checked(std::move(changed));

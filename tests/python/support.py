@@ -27,6 +27,7 @@ normal_stiffness_n_per_m = 5760
 tangential_stiffness_n_per_m = 325
 [contact]
 friction = 0.5
+bond_friction_limit = false
 [specimen]
 diameter_um = 1500
 height_um = 1500
