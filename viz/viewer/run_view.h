@@ -1,6 +1,6 @@
 #pragma once
 
-#include "viz/run_folder.h"
+#include "run_folder/run_folder.h"
 #include "viz/viewer/specimen_view.h"
 
 namespace pendular::viz {
