@@ -103,8 +103,7 @@ TEST_F(Walk, TheDiagnosisFindsTheEffectByTheKindAndReportsBoth) {
   EXPECT_NEAR(found.explanations.front().magnitudes.front().mean, 0.2, 0.05);
   EXPECT_NE(found.verdict.find("toy of a soft bed"), std::string::npos) << found.verdict;
 
-  const viz::Display display;
-  diagnosis_report::write_report_folder({folder / "report", display}, found);
+  diagnosis_report::write_report_folder(folder / "report", found);
   const std::string page = read_text(folder / "report" / "report.html");
   for (const char* part : {"toy of a soft bed", "A soft bed that only a test knows.", "ends per bead"})
     EXPECT_NE(page.find(part), std::string::npos) << part;

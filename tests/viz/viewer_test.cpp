@@ -16,11 +16,14 @@
 namespace pendular {
 namespace {
 
-viz::RunFolder planted(const test::ScratchFolder& scratch, int frames = 4) {
+using viz::run_view;
+using viz::to_html;
+
+RunFolder planted(const test::ScratchFolder& scratch, int frames = 4) {
   test::PlantedRun run;
   run.frames = frames;
   test::write_planted_run(scratch / "run", run);
-  return viz::read_run_folder(scratch / "run");
+  return read_run_folder(scratch / "run");
 }
 
 /// A page with one specimen and one picture.
@@ -80,7 +83,7 @@ constexpr const char* kProbe = R"(
 
 TEST(SpecimenView, HasEveryArrayOfTheFramesAndTheUnionOfTheirPairs) {
   const test::ScratchFolder scratch;
-  const viz::RunFolder run = planted(scratch);
+  const RunFolder run = planted(scratch);
   const viz::SpecimenView view = run_view(run);
   ASSERT_EQ(view.moments.size(), 4u);
   EXPECT_EQ(view.fields.front().name, "local shear strain");
@@ -104,7 +107,7 @@ TEST(SpecimenView, HasEveryArrayOfTheFramesAndTheUnionOfTheirPairs) {
 
 TEST(SpecimenView, TakesFramesEvenlyWhereAPageDoesNotHoldThemAll) {
   const test::ScratchFolder scratch;
-  const viz::RunFolder run = planted(scratch, 9);
+  const RunFolder run = planted(scratch, 9);
   const auto all = run_view(run);
   const auto few = run_view(run, 3 * (to_html(all).size() / 9));
   ASSERT_GE(few.moments.size(), 2u);
@@ -116,7 +119,7 @@ TEST(SpecimenView, TakesFramesEvenlyWhereAPageDoesNotHoldThemAll) {
 
 TEST(SpecimenView, AFrameWithOtherBeadsIsBadInput) {
   const test::ScratchFolder scratch;
-  const viz::RunFolder run = planted(scratch);
+  const RunFolder run = planted(scratch);
   PolyTable frame = read_polydata(run.frames[1]);
   for (auto& [name, array] : frame.point_data)
     if (name == "bead_id") std::get<std::vector<std::int64_t>>(array)[0] = 999999;

@@ -30,12 +30,15 @@ ColourMap map_of(SpecimenView::Colours colours) {
 }
 
 std::string packed_colours(SpecimenView::Colours map) {
-  const auto function = colours(map_of(map), {0.0, 1.0});
+  const auto stops = colours_of(map_of(map));
   std::vector<std::uint8_t> bytes;
   for (int k = 0; k < kColours; ++k) {
-    double rgb[3];
-    function->GetColor(static_cast<double>(k) / (kColours - 1), rgb);
-    for (const double c : rgb) bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0 * c)));
+    const double place = static_cast<double>(k) / (kColours - 1) * static_cast<double>(stops.size() - 1);
+    const auto low = std::min(static_cast<std::size_t>(place), stops.size() - 2);
+    const double share = place - static_cast<double>(low);
+    for (std::size_t c = 0; c < 3; ++c)
+      bytes.push_back(static_cast<std::uint8_t>(
+          std::lround(255.0 * ((1.0 - share) * stops[low][c] + share * stops[low + 1][c]))));
   }
   return packed(bytes);
 }
