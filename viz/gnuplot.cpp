@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <map>
 
 #include "base/error.h"
@@ -59,7 +60,8 @@ std::string script_of(std::span<const FigureFiles> figures) {
 }
 
 void draw(const fs::path& folder, const std::string& script) {
-  write_text(folder / "script", script);
+  // Not write_text(), which waits for other files where they are written together (WrittenTogether).
+  std::ofstream(folder / "script", std::ios::binary) << script;
   // -d: without the user's settings.
   const fs::path log = folder / "log";
   const int status = run({"gnuplot", {"-d", "script"}}, {.log = log, .folder = folder});

@@ -5,6 +5,7 @@
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 #include <vtkUnsignedCharArray.h>
+#include <zlib.h>
 
 #include <algorithm>
 
@@ -22,11 +23,32 @@ std::pair<int, int> span_of(int pixel, int shorter, int longer) {
   return {edge(pixel), std::max(edge(pixel) + 1, edge(pixel + 1))};
 }
 
+std::size_t big_endian(const std::string& bytes, std::size_t at) {
+  std::size_t value = 0;
+  for (std::size_t k = at; k < at + 4; ++k) value = 256 * value + static_cast<unsigned char>(bytes[k]);
+  return value;
+}
+
+/// Whether every chunk of a PNG file is there with its checksum: VTK's reader does not survive a cut one.
+bool is_whole_png(const std::string& bytes) {
+  constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
+  if (!bytes.starts_with(signature)) return false;
+  for (std::size_t at = signature.size(); at + 12 <= bytes.size();) {
+    const std::size_t length = big_endian(bytes, at);
+    if (length > bytes.size() - at - 12) return false;
+    const auto* typed = reinterpret_cast<const Bytef*>(bytes.data() + at + 4);
+    if (crc32(0, typed, static_cast<uInt>(length + 4)) != big_endian(bytes, at + 8 + length)) return false;
+    if (bytes.compare(at + 4, 4, "IEND") == 0) return true;
+    at += 12 + length;
+  }
+  return false;
+}
+
 vtkSmartPointer<vtkImageData> read_png(const fs::path& path) {
   require_readable(path);
+  if (!is_whole_png(read_text(path)))
+    bad_input("{}: found no PNG picture, or a damaged one, expected a whole one", path.string());
   vtkNew<vtkPNGReader> reader;
-  if (reader->CanReadFile(path.c_str()) == 0)
-    bad_input("{}: found no PNG picture, expected one", path.string());
   reader->SetFileName(path.c_str());
   reader->Update();
   vtkSmartPointer<vtkImageData> image = reader->GetOutput();

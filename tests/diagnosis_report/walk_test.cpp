@@ -107,7 +107,7 @@ TEST_F(Walk, TheDiagnosisFindsTheEffectByTheKindAndReportsBoth) {
   const std::string page = read_text(folder / "report" / "report.html");
   for (const char* part : {"toy of a soft bed", "A soft bed that only a test knows.", "ends per bead"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
-  EXPECT_EQ(nlohmann::json::parse(read_text(folder / "report" / "diagnosis.json"))["explanations"][0]["id"],
+  EXPECT_EQ(nlohmann::json::parse(read_text(folder / "report" / "diagnosis.json"))["hypotheses"][0]["id"],
             "toy_softness");
 }
 
