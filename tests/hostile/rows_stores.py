@@ -1,5 +1,4 @@
 """Stores of runs, run folders and checkpoints: what was in them is replaced, cut or foreign."""
-import json
 import shutil
 import sqlite3
 
@@ -48,51 +47,6 @@ def sql(*statements):
     return prepare
 
 
-def altered(change, name="result.json"):
-    """A run's result, or the run's beside the store, with something in it changed."""
-
-    def prepare(folder):
-        for path in (run_of(folder) / name, folder / "run" / name):
-            whole = json.loads(path.read_text())
-            change(whole)
-            path.write_text(json.dumps(whole))
-
-    return prepare
-
-
-def set_to(pointer, value):
-    def change(whole):
-        *parts, last = pointer.split("/")
-        for part in parts:
-            whole = whole[part]
-        whole[last] = value
-
-    return change
-
-
-def odd_results():
-    odd = {"linear_modulus_pa/value": (1e300, "1e7", True), "linear_modulus_pa/sigma": (-1,), "linear_modulus_pa": (3, []),
-           "linear_limit_strain": ("x",), "peak/stress_pa": (1e200, []), "peak/passed": (1, None), "beads": (-3, 2.5, 1e30, "x", [[[1]]]),
-           "bonds": (-1,), "broken_bonds": ({},), "specimen/height_um": (0, 1e9), "specimen/section_mm2": (-1,), "final_strain": (7,),
-           "coordination/bridges_per_interior_bead": (-2, 1e9), "coordination": ("x",), "quasi_static/holds": ("yes",),
-           "curve_sha256": ("0" * 64, 3)}
-    for pointer, values in odd.items():
-        for value in values:
-            says = "curve.csv" if pointer == "curve_sha256" else pointer
-            yield Row(f"17 result.json with {pointer} = {value!r}", SWEEP, 3, says, altered(set_to(pointer, value)))
-            yield Row(f"render result.json with {pointer} = {value!r}", "$P render run -o out --no-film --quiet", 3, says,
-                      altered(set_to(pointer, value)))
-    for key in ("beads", "specimen", "final_strain", "provenance"):
-        yield Row(f"17 result.json without {key}", SWEEP, 3, "result.json", altered(lambda whole, key=key: whole.pop(key)))
-    for change in (lambda text: text + "0.5,1e5\n", lambda text: text.replace("0.00", "0.01", 1), lambda text: text[:len(text) // 2]):
-        def prepare(folder, change=change):
-            for path in (run_of(folder) / "curve.csv", folder / "run/curve.csv"):
-                path.write_text(change(path.read_text()))
-
-        yield Row("17 another curve beside a result", SWEEP, 3, "curve.csv", prepare)
-        yield Row("render another curve beside a result", "$P render run -o out --no-film --quiet", 3, "curve.csv", prepare)
-
-
 def results():
     for name, content in {"{}": "{}", "[]": "[]", "null": "null", "nothing": "", "half": '{"linear_modulus_pa": {"val', "a number": "3",
                           "words": '{"linear_modulus_pa": "x", "beads": "y"}', "deep": "[" * 100_000}.items():
@@ -134,6 +88,5 @@ def run_folders():
 
 def rows():
     yield from results()
-    yield from odd_results()
     yield from indices()
     yield from run_folders()
