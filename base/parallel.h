@@ -25,10 +25,18 @@ namespace pendular {
 class LoopOrder {
  public:
 #ifdef PENDULAR_THREAD_SANITIZER
-  LoopOrder() { __tsan_release(&start_); }
-  ~LoopOrder() { __tsan_acquire(&end_); }
-  void part_starts() { __tsan_acquire(&start_); }
-  void part_ends() { __tsan_release(&end_); }
+  LoopOrder() {
+    __tsan_release(&start_);
+  }
+  ~LoopOrder() {
+    __tsan_acquire(&end_);
+  }
+  void part_starts() {
+    __tsan_acquire(&start_);
+  }
+  void part_ends() {
+    __tsan_release(&end_);
+  }
 
  private:
   char start_ = 0, end_ = 0;

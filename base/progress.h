@@ -19,7 +19,7 @@ void warn(const std::string& line);
 /// Who is told, in the place of standard error; called on the threads that work, one call at a time. What is
 /// null is told to nobody.
 struct Listener {
-  std::function<void(const std::string& line)> said, warned;
+  std::function<void(const std::string&line)> said, warned;
   /// What is done, its share from 0 to 1, and the note of Progress::update(); ten times a second at most.
   std::function<void(const std::string& what, double share, const std::string& note)> progress;
 };

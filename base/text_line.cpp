@@ -37,8 +37,7 @@ bool is_printable(std::uint32_t code) {
   const bool control = code < 0x20 || (code >= 0x7f && code < 0xa0);
   const bool direction = (code >= 0x200e && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
                          (code >= 0x2066 && code <= 0x2069);
-  return !control && !direction && code != 0xfeff &&
-         (code & 0xfffeU) != 0xfffeU;
+  return !control && !direction && code != 0xfeff && (code & 0xfffeU) != 0xfffeU;
 }
 
 }  // namespace

@@ -25,10 +25,10 @@ struct CurveRow {
 
 /// A column of curve.csv.
 struct CurveColumn {
-  std::string name;          ///< with its unit
+  std::string name;  ///< with its unit
   double CurveRow::*field;
-  int digits;                ///< significant ones that are written; 0: a whole number
-  bool may_be_empty;         ///< there may be no such number, as of the inertial number without stress
+  int digits;         ///< significant ones that are written; 0: a whole number
+  bool may_be_empty;  ///< there may be no such number, as of the inertial number without stress
   std::string meaning;
 };
 

@@ -28,8 +28,8 @@ struct RunResult {
   std::optional<double> peak_strain, peak_stress;  ///< beyond the toe; Pa
   std::optional<ShearPlane> band;
   std::optional<std::int64_t> beads, bonds, broken_bonds;
-  std::optional<double> coordination;      ///< bridges per interior bead before loading
-  std::optional<double> height, section;   ///< of the specimen before its test, m, m²
+  std::optional<double> coordination;     ///< bridges per interior bead before loading
+  std::optional<double> height, section;  ///< of the specimen before its test, m, m²
   std::optional<double> final_strain;
   std::optional<double> inertial_number, unbalanced_force;  ///< largest where the curve is linear
   std::optional<double> work_balance_error;                 ///< relative

@@ -16,7 +16,7 @@ namespace py = pybind11;
 /// What every call that works takes.
 struct Terms {
   py::object progress = py::none();  ///< callable(what, done, note), or None
-  int threads = 0;      ///< 0: one per core
+  int threads = 0;                   ///< 0: one per core
 };
 
 /// What a call told on its way, for Python once it is back.

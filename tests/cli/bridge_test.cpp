@@ -145,27 +145,25 @@ TEST_P(BadBridgeCommand, GivesOneLineAndTheRightStatus) {
   EXPECT_FALSE(fs::exists(folder / "out.csv"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, BadBridgeCommand,
-                         testing::Values(BadBridge{"WiderThanBead", "--d-um 210", 3, "210"},
-                                         BadBridge{"NegativeGap", "--gap-um -1", 3, "-1"},
-                                         BadBridge{"Touching", "--gap-um 0", 3, "gap"},
-                                         BadBridge{"Incompressible", "--nu 0.5", 3, "0.5"},
-                                         BadBridge{"NotANumber", "--d-um wide", 3, "wide"},
-                                         BadBridge{"Nan", "--d-um nan", 3, "nan"},
-                                         BadBridge{"FallingRange", "--d-um 50:10:4", 3, "50:10:4"},
-                                         BadBridge{"RangeOfOne", "--d-um 10:50:1", 3, "10:50:1"},
-                                         BadBridge{"EmptyItem", "--d-um 1,,2", 3, "1,,2"},
-                                         BadBridge{"EndlessRange", "--gap-um 1:2:1e12", 3, "expected a number from -1e+06 to 1e+06"},
-                                         BadBridge{"TooMany", "--gap-um 1:2:10000 --d-um 50:60:10000", 3,
-                                                   "combinations"},
-                                         BadBridge{"SoftToNothing", "--E-pa 0", 3, "Young"},
-                                         BadBridge{"MissingSample", "absent.toml", 3, "absent.toml"},
-                                         BadBridge{"UnknownKey", "typo.toml", 3, "bridges.diameter_um"},
-                                         BadBridge{"PaperAndValues", "--paper --nu 0.3", 2, "--paper"},
-                                         BadBridge{"PlotOfOnePoint", "--d-um 50 --plot a.png", 3, "--plot"},
-                                         BadBridge{"PlotOfNoFormat", "--plot a.gif", 2, "a.gif"},
-                                         BadBridge{"NoFolder", "--plot absent/a.png", 3, "absent"}),
-                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Table, BadBridgeCommand,
+    testing::Values(
+        BadBridge{"WiderThanBead", "--d-um 210", 3, "210"}, BadBridge{"NegativeGap", "--gap-um -1", 3, "-1"},
+        BadBridge{"Touching", "--gap-um 0", 3, "gap"}, BadBridge{"Incompressible", "--nu 0.5", 3, "0.5"},
+        BadBridge{"NotANumber", "--d-um wide", 3, "wide"}, BadBridge{"Nan", "--d-um nan", 3, "nan"},
+        BadBridge{"FallingRange", "--d-um 50:10:4", 3, "50:10:4"},
+        BadBridge{"RangeOfOne", "--d-um 10:50:1", 3, "10:50:1"},
+        BadBridge{"EmptyItem", "--d-um 1,,2", 3, "1,,2"},
+        BadBridge{"EndlessRange", "--gap-um 1:2:1e12", 3, "expected a number from -1e+06 to 1e+06"},
+        BadBridge{"TooMany", "--gap-um 1:2:10000 --d-um 50:60:10000", 3, "combinations"},
+        BadBridge{"SoftToNothing", "--E-pa 0", 3, "Young"},
+        BadBridge{"MissingSample", "absent.toml", 3, "absent.toml"},
+        BadBridge{"UnknownKey", "typo.toml", 3, "bridges.diameter_um"},
+        BadBridge{"PaperAndValues", "--paper --nu 0.3", 2, "--paper"},
+        BadBridge{"PlotOfOnePoint", "--d-um 50 --plot a.png", 3, "--plot"},
+        BadBridge{"PlotOfNoFormat", "--plot a.gif", 2, "a.gif"},
+        BadBridge{"NoFolder", "--plot absent/a.png", 3, "absent"}),
+    [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace pendular

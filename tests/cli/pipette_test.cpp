@@ -128,7 +128,8 @@ TEST_P(BadPipetteTest, GivesOneLineAndTheRightStatus) {
   EXPECT_EQ(outcome.status, bad.status) << outcome.errors;
   EXPECT_NE(outcome.errors.find(bad.expected), std::string::npos) << outcome.errors;
   EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
-  for (const char* name : {"out.csv", "out.json", "out.png", "out.pdf"}) EXPECT_FALSE(fs::exists(folder / name)) << name;
+  for (const char* name : {"out.csv", "out.json", "out.png", "out.pdf"})
+    EXPECT_FALSE(fs::exists(folder / name)) << name;
 }
 
 INSTANTIATE_TEST_SUITE_P(
