@@ -31,15 +31,17 @@ std::string display() {
 }
 
 std::string python_module() {
-  return std::system("python3 -c 'import pendular' >/dev/null 2>&1") == 0 ? "python3: import pendular" : "";
+  return ask({"python3", {"-c", "import pendular"}}).status == 0 ? "python3: import pendular" : "";
 }
 
 std::vector<Part> parts() {
   return {
       {"pendular-pictures", "commands that read or draw pictures", companion(), "install it beside pendular"},
       {"X server", "pictures, films, reports", display(), "apt-get install xvfb"},
+      {"gnuplot", "charts: bridge, pipette, render, diagnose, reproduce", found_on_path("gnuplot"),
+       "apt-get install gnuplot-nox fonts-liberation"},
       {"ffmpeg", "films as .mp4; else numbered pictures", found_on_path("ffmpeg"), "apt-get install ffmpeg"},
-      {"Python module", "import pendular", python_module(), "install python3-pendular"},
+      {"Python module", "import pendular", python_module(), "cmake --preset release -DPENDULAR_PYTHON=ON"},
       {"Slurm", "sweep, diagnose --executor slurm", found_on_path("sbatch"), "apt-get install slurm-wlm"},
       {"Yade", "blind cases by another engine", found_on_path("yade"), "apt-get install yade"},
       {"Chromium", "opening report.html; tests of it", found_on_path("chromium"),
@@ -50,7 +52,7 @@ void run() {
   fmt::print("pendular {}\n", program_version());
   bool pictures = true;
   for (const auto& [name, serves, found, remedy] : parts()) {
-    fmt::print("{:<7}  {:<17}  {:<38}  {}\n", found.empty() ? "absent" : "present", name, serves,
+    fmt::print("{:<7}  {:<17}  {:<52}  {}\n", found.empty() ? "absent" : "present", name, serves,
                found.empty() ? remedy : found);
     if (name == "pendular-pictures" || name == "X server") pictures = pictures && !found.empty();
   }
