@@ -128,6 +128,7 @@ void oracle(const OracleOptions& options) {
 
 void add_blind_oracle(CLI::App& blind) {
   auto options = std::make_shared<OracleOptions>();
+  options->making.rows_suffice = true;
   auto* command = blind.add_subcommand(
       "oracle",
       "Measures what the true effects of each case close of the gap, for reports that say how far it\n"

@@ -156,6 +156,7 @@ void add_diagnose(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--leave-out", options->leave_out, "Effects that are not considered, by their names")
       ->delimiter(',');
+  options->making.rows_suffice = true;
   add_run_making(*command, options->making);
   add_common(*command, options->common, "Folder for the report");
   command->callback([options] { run(*options); });

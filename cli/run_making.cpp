@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "cli/own_program.h"
 #include "sweep/estimate.h"
+#include "sweep/longer_runs.h"
 
 namespace pendular::cli {
 namespace {
@@ -25,22 +26,27 @@ struct Stock {
   std::optional<double> rate;           ///< of the store's runs
 };
 
-Stock stock_of(const fs::path& store_folder, bool retry_failed, std::span<const sweep::RunRequest> requests) {
+Stock stock_of(const RunMaking& making, const Common& common, std::span<const sweep::RunRequest> requests) {
+  const fs::path store_folder = making.store_folder(common);
+  const bool retry_failed = making.retry_failed;
   std::vector<std::string> hashes;
   for (const auto& request : requests) hashes.push_back(sweep::content_hash(request));
   std::map<std::string, sweep::RunRecord> known;
+  std::vector<std::optional<std::string>> longer(requests.size());
   Stock stock;
   if (sweep::Store::exists(store_folder)) {  // opening would make it
     sweep::Store store(store_folder);
     known = store.records(hashes);
+    if (making.rows_suffice) longer = sweep::longer_runs(store, requests);
     stock.rate = store.rate();
   }
   for (std::size_t k = 0; k < hashes.size(); ++k) {
     const auto status = known[hashes[k]].status;
     const bool failed = status == sweep::RunStatus::failed;
-    stock.done += status == sweep::RunStatus::done;
+    const bool done = longer[k] || status == sweep::RunStatus::done;
+    stock.done += done;
     stock.failed += failed;
-    if (status == sweep::RunStatus::done || (failed && !retry_failed)) continue;
+    if (done || (failed && !retry_failed)) continue;
     stock.left.push_back(requests[k]);
   }
   return stock;
@@ -71,6 +77,7 @@ std::vector<sweep::RunOutcome> make_runs(const RunMaking& making, const Common& 
   how.worker = {own_program(), {"sweep-run"}};
   how.cores = common.threads;
   how.retry_failed = making.retry_failed;
+  how.rows_suffice = making.rows_suffice;
   if (making.executor == "slurm") how.slurm = sweep::SlurmOptions{making.slurm_options};
   Progress progress(name, 1.0);
   how.progress = [&](std::size_t done, std::size_t failed, std::size_t total) {
@@ -81,8 +88,7 @@ std::vector<sweep::RunOutcome> make_runs(const RunMaking& making, const Common& 
 }
 
 void tell_work(const RunMaking& making, const Common& common, std::span<const sweep::RunRequest> requests) {
-  const auto [done, failed, left, rate] =
-      stock_of(making.store_folder(common), making.retry_failed, requests);
+  const auto [done, failed, left, rate] = stock_of(making, common, requests);
   say(fmt::format("{} runs: {} in the store, {} failed before, {} to make", requests.size(), done, failed,
                   left.size()));
   if (left.empty()) return;

@@ -14,6 +14,7 @@ namespace pendular::cli {
 struct RunMaking {
   fs::path store;
   bool retry_failed = false;
+  bool rows_suffice = false;  ///< see sweep::ExecuteOptions
   std::string executor = "local", slurm_options;
 
   fs::path store_folder(const Common& common) const { return store.empty() ? common.out / "store" : store; }

@@ -37,7 +37,7 @@ struct RunResult {
 };
 
 /// BadInput where the file is missing, no JSON object, or holds something else than a number where one is
-/// expected.
+/// expected, or one that no run can have.
 RunResult read_result(const fs::path& file);
 
 }  // namespace pendular

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "run_folder/run_folder.h"
 #include "sweep/executors.h"
+#include "sweep/longer_runs.h"
 #include "sweep/make_run.h"
 
 namespace pendular::sweep {
@@ -39,10 +40,9 @@ void require_result(const Store& store, const std::string& hash) {
               file.string());
 }
 
-}  // namespace
-
-std::vector<RunOutcome> execute(Store& store, std::span<const RunRequest> requests,
-                                const ExecuteOptions& options) {
+/// Makes runs, and their outcomes in the order of the requests.
+std::vector<RunOutcome> made(Store& store, std::span<const RunRequest> requests,
+                             const ExecuteOptions& options) {
   const std::vector<std::string> hashes = store.add(requests);
   std::vector<std::string> once;
   std::set<std::string> seen;
@@ -66,6 +66,30 @@ std::vector<RunOutcome> execute(Store& store, std::span<const RunRequest> reques
     outcomes.push_back({hash, record.status, record.exit_status, record.message, store.run_folder(hash)});
   }
   return outcomes;
+}
+
+}  // namespace
+
+std::vector<RunOutcome> execute(Store& store, std::span<const RunRequest> requests,
+                                const ExecuteOptions& options) {
+  if (!options.rows_suffice) return made(store, requests, options);
+  const auto longer = longer_runs(store, requests);
+  std::vector<RunRequest> open;
+  for (std::size_t k = 0; k < requests.size(); ++k)
+    if (!longer[k]) open.push_back(requests[k]);
+  const auto outcomes = made(store, open, options);
+  auto next = outcomes.begin();
+  std::vector<RunOutcome> all;
+  for (std::size_t k = 0; k < requests.size(); ++k) {
+    if (!longer[k]) {
+      all.push_back(*next++);
+      continue;
+    }
+    require_result(store, *longer[k]);
+    all.push_back({*longer[k], RunStatus::done, 0, "", store.run_folder(*longer[k]),
+                   requests[k].sample.compression.max_strain});
+  }
+  return all;
 }
 
 }  // namespace pendular::sweep

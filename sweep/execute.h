@@ -19,6 +19,7 @@ struct SlurmOptions {
 struct ExecuteOptions {
   int cores = 0;              ///< of this machine, shared between runs; 0: as many as threads may be used
   bool retry_failed = false;  ///< make runs anew that have failed before
+  bool rows_suffice = false;  ///< runs that go farther than was asked answer, too: see RunOutcome::up_to
   std::optional<SlurmOptions> slurm;  ///< send the runs to Slurm instead
   /// Makes one run in a process of its own: it is given the store's folder, the run's hash, "--threads" and
   /// their number, calls make_run(), and ends with its error's status.
@@ -33,6 +34,8 @@ struct RunOutcome {
   int exit_status = 0;
   std::string message;  ///< of a failed run
   fs::path folder;      ///< of a run that is done
+  /// The run goes farther: its rows and frames up to this strain are those asked for, its result is not.
+  std::optional<double> up_to = {};
 };
 
 /// Makes the runs that the store does not have yet, waits for those that other processes make, and returns

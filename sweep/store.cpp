@@ -186,6 +186,15 @@ RunRequest Store::request(const std::string& hash) {
                        fmt::format("{}: run {}", folder_.string(), hash));
 }
 
+std::vector<std::pair<std::string, std::string>> Store::finished() {
+  std::vector<std::pair<std::string, std::string>> runs;
+  for (const auto& row : index_.run("SELECT hash, request FROM runs WHERE status = 'done'")) {
+    const auto hash = value_or<std::string>(row[0], "");
+    if (fs::exists(run_folder(hash))) runs.emplace_back(hash, value_or<std::string>(row[1], ""));
+  }
+  return runs;
+}
+
 bool Store::take(const std::string& hash) {
   Transaction transaction(index_);
   if (!record(hash).free()) return false;

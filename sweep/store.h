@@ -70,6 +70,9 @@ class Store {
   RunRecord record(const std::string& hash);  ///< BadInput where it is not there
   RunRequest request(const std::string& hash);
 
+  /// Hash and request (request_text()) of every run that is done and whose folder is there.
+  std::vector<std::pair<std::string, std::string>> finished();
+
   /// Makes this process the run's worker, unless it is done, has failed, or has a worker that lives.
   bool take(const std::string& hash);
 

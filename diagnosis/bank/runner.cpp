@@ -13,6 +13,7 @@ std::optional<SimulatedTest> read_outcome(const sweep::RunOutcome& outcome, std:
                     outcome.message, condition});
   if (outcome.status != sweep::RunStatus::done) return std::nullopt;
   SimulatedTest test = read_simulated_test(outcome.folder);
+  if (outcome.up_to) end_at(*outcome.up_to, test);
   for (const auto& effect : effects::all_effects())
     if (effect.rows && changes.contains(effect.id)) read_frames(effect, changes.at(effect.id), test);
   return test;

@@ -10,6 +10,8 @@
 namespace pendular::diagnosis {
 namespace {
 
+constexpr double kFrameStrain = 1e-4;  // a frame is written at the first step beyond its strain
+
 Frame frame_of(const fs::path& path) {
   const RunFrame read = run_frame(read_polydata(path), path);
   Frame frame;
@@ -42,6 +44,13 @@ SimulatedTest read_simulated_test(const fs::path& folder) {
   for (const auto& path : frame_files(folder)) test.frames.push_back(frame_of(path));
   test.coordination = result.coordination.value_or(std::nan(""));
   return test;
+}
+
+void end_at(double strain, SimulatedTest& test) {
+  const auto beyond = std::find_if(test.rows.begin(), test.rows.end(),
+                                   [&](const CurveRow& row) { return row.strain > strain; });
+  test.rows.erase(beyond, test.rows.end());
+  std::erase_if(test.frames, [&](const Frame& frame) { return frame.strain > strain + kFrameStrain; });
 }
 
 void read_frames(const effects::Effect& effect, double theta, SimulatedTest& test) {

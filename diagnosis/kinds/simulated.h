@@ -37,6 +37,9 @@ inline constexpr double kRestStrain = 1e-3;
 /// Reads a run folder. BadInput where it is damaged.
 SimulatedTest read_simulated_test(const fs::path& folder);
 
+/// Leaves out what a test shows beyond this strain of the run.
+void end_at(double strain, SimulatedTest& test);
+
 /// Frames by the strain that instruments with an effect show: a run's frames have the true one.
 void read_frames(const effects::Effect& effect, double theta, SimulatedTest& test);
 

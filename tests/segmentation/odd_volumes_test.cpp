@@ -23,6 +23,11 @@ const Volume& whole() {
   return made;
 }
 
+const Segmentation& found_in_whole() {
+  static const Segmentation found = segment(whole());
+  return found;
+}
+
 std::vector<std::uint16_t>& grey_of(Volume& volume) {
   return std::get<std::vector<std::uint16_t>>(volume.pixels);
 }
@@ -86,7 +91,7 @@ TEST(OddVolumes, ZerosBeyondTheFieldOfViewChangeNothing) {
       for (std::size_t i = 0; i < padded.size[0]; ++i, ++n)
         if (std::hypot(static_cast<double>(i) - middle, static_cast<double>(j) - middle) > middle)
           grey_of(padded)[n] = 0;
-  const Segmentation found = segment(padded), before = segment(whole());
+  const Segmentation found = segment(padded), &before = found_in_whole();
   EXPECT_TRUE(found.warnings.empty());
   ASSERT_TRUE(found.specimen);
   EXPECT_NEAR(found.porosity, before.porosity, 1e-3);
@@ -98,7 +103,7 @@ TEST(OddVolumes, ZerosBeyondTheFieldOfViewChangeNothing) {
 
 TEST(OddVolumes, GreyValuesThatAreCutOffAreNoticed) {
   Volume saturated = whole();
-  const auto bright = static_cast<std::uint16_t>(segment(whole()).levels.bright);
+  const auto bright = static_cast<std::uint16_t>(found_in_whole().levels.bright);
   for (auto& grey : grey_of(saturated)) grey = std::min(grey, bright);
   const Segmentation found = segment(saturated);
   EXPECT_EQ(found.warnings.size(), 1u);
@@ -158,7 +163,7 @@ void carve(Volume& volume, const Vec3& centre, double radius, const Vec3& normal
 
 TEST(OddVolumes, PoresAreNoBeadsAndBrokenBeadsAreLeftOut) {
   Volume volume = whole();
-  const GreyLevels levels = segment(whole()).levels;
+  const GreyLevels levels = found_in_whole().levels;
   const double depth = levels.bright - levels.dark;
   std::vector<Bead> intact;
   const auto& beads = test::small_packing().beads;

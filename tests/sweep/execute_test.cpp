@@ -71,6 +71,44 @@ TEST(Execute, EqualRequestsAreMadeOnceAndAnsweredEach) {
             sha256_of(store.packing_path(packing_hash(tiny_request(4)))));
 }
 
+/// A run's curve without what says where it comes from.
+std::string rows_text(const fs::path& run) {
+  const std::string text = read_text(run / "curve.csv");
+  return text.substr(text.find("\nstrain,"));
+}
+
+TEST(Execute, ARunThatGoesFartherAnswersWhereRowsSuffice) {
+  ScratchFolder folder;
+  Store store(folder / "store");
+  RunRequest shorter = tiny_request(4);
+  shorter.sample.compression.frames = 0.0;
+  shorter.sample.compression.frame_at = {0.004};
+  RunRequest longer = shorter;
+  longer.sample.compression.max_strain = 0.02;
+  const auto far = execute(store, std::vector{longer}, with_program());
+  ASSERT_EQ(far[0].status, RunStatus::done) << far[0].message;
+
+  ExecuteOptions options = with_program();
+  options.rows_suffice = true;
+  RunRequest slower = shorter;
+  slower.sample.compression.speed *= 0.5;
+  const auto answers = execute(store, std::vector{slower, shorter, longer}, options);
+  EXPECT_EQ(answers[0].hash, content_hash(slower));
+  EXPECT_EQ(answers[1].hash, content_hash(longer));
+  EXPECT_EQ(answers[1].up_to, 0.01);
+  EXPECT_EQ(answers[2].up_to, std::nullopt);
+  EXPECT_FALSE(fs::exists(store.run_folder(content_hash(shorter))));
+
+  // What the longer run is up to there is what the shorter one is, byte by byte.
+  const auto made = execute(store, std::vector{shorter}, with_program());
+  const std::string asked = rows_text(made[0].folder), all = rows_text(far[0].folder);
+  EXPECT_GT(asked.size(), 1000u);
+  EXPECT_LT(asked.size(), all.size());
+  EXPECT_EQ(all.substr(0, asked.size()), asked);
+  EXPECT_EQ(answers[1].folder, far[0].folder);
+  EXPECT_EQ(execute(store, std::vector{shorter}, options)[0].folder, made[0].folder);
+}
+
 TEST(Execute, AProgramThatCannotDoItEndsTheLoop) {
   ScratchFolder folder;
   Store store(folder / "store");

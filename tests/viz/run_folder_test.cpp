@@ -54,6 +54,31 @@ TEST(RunFolder, WhatAResultDoesNotSayIsEmpty) {
   }
 }
 
+TEST(RunFolder, ANumberThatNoRunCanHaveIsNamed) {
+  const test::ScratchFolder scratch;
+  for (const auto& [field, value] :
+       std::vector<std::pair<std::string, std::string>>{{"beads", "-1"},
+                                                        {"beads", "1e300"},
+                                                        {"bonds", "2.5"},
+                                                        {"final_strain", "true"},
+                                                        {"linear_modulus_pa/value", "1e300"},
+                                                        {"linear_modulus_pa/sigma", "-1"},
+                                                        {"coordination/bridges_per_interior_bead", "[7]"},
+                                                        {"specimen/height_um", "0"},
+                                                        {"work_balance/relative_error", "\"small\""}}) {
+    nlohmann::json result = {{"beads", 12}, {"final_strain", 0.1}};
+    result[nlohmann::json::json_pointer("/" + field)] = nlohmann::json::parse(value);
+    write_text(scratch / "result.json", result.dump());
+    try {
+      read_result(scratch / "result.json");
+      ADD_FAILURE() << field << " = " << value;
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what()).find("result.json: " + field + ": found"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(RunFolder, EveryColumnOfACurveComesBackAndEmptyCellsWhereTheyMayBe) {
   const test::ScratchFolder scratch;
   std::vector<CurveRow> rows(2);
