@@ -1,6 +1,6 @@
 # What every target of the project is built with.
 option(PENDULAR_TESTS "Build the tests" ON)
-option(PENDULAR_PYTHON "Build the Python module" OFF)
+option(PENDULAR_PYTHON "Build the Python module" ON)
 option(PENDULAR_BENCH "Build the benchmarks" OFF)
 set(PENDULAR_SANITIZE "" CACHE STRING "\"address\" (with undefined behaviour), \"thread\", or none")
 option(PENDULAR_FUZZ "The targets of libFuzzer; needs clang and PENDULAR_SANITIZE=address" OFF)

@@ -46,6 +46,7 @@ std::vector<sweep::RunOutcome> make_runs(const RunTerms& terms, const std::strin
   sweep::ExecuteOptions how;
   how.cores = terms.threads;
   how.worker = {terms.program, {"sweep-run"}};
+  how.rows_suffice = terms.rows_suffice;
   Progress progress(name, 1.0);
   how.progress = [&](std::size_t done, std::size_t failed, std::size_t total) {
     progress.update(static_cast<double>(done + failed) / static_cast<double>(total),

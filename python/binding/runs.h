@@ -15,6 +15,7 @@ struct RunTerms {
   fs::path program;  ///< pendular, for runs in processes of their own; empty: there is none
   bool retry_failed = false;
   int threads = 0;
+  bool rows_suffice = false;  ///< see sweep::ExecuteOptions
 };
 
 /// The outcomes of runs, in the order of the requests. Those with an effect that was added in Python are made

@@ -45,8 +45,10 @@ SweepOutcome sweep_file(const fs::path& path, const fs::path& out, const std::op
 
 void add_sweeps(py::module_& module) {
   py::class_<RunTerms>(module, "RunTerms")
-      .def(py::init<fs::path, fs::path, bool, int>(), py::arg("store"), py::arg("program"),
-           py::arg("retry_failed"), py::arg("threads"));
+      .def(py::init([](fs::path store, fs::path program, bool retry_failed, int threads) {
+             return RunTerms{std::move(store), std::move(program), retry_failed, threads};
+           }),
+           py::arg("store"), py::arg("program"), py::arg("retry_failed"), py::arg("threads"));
   py::class_<SweepOutcome>(module, "SweepOutcome")
       .def_readonly("runs", &SweepOutcome::runs)
       .def_readonly("failed", &SweepOutcome::failed)

@@ -38,7 +38,7 @@ py::object modulus(const Packing& packing, const NamedSample& sample, double str
     const auto specimen = effects::actual_specimen(packing, sample.sample, origin.seed);
     const Simulation simulation = effects::actual_simulation(specimen);
     auto json = to_json(linear_response(simulation, {strain}), simulation, strain);
-    json["diameters"] = specimen.sample.beads.diameters;
+    json["diameters"] = to_string(specimen.sample.beads.diameters);
     json["provenance"] = to_json(provenance_of(origin));
     return json;
   }));

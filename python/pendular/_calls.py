@@ -19,7 +19,7 @@ def terms(progress: Progress, threads: int) -> _core.Terms:
     return _core.Terms(progress, threads)
 
 
-def origin(function: str, seed: int, inputs: list, **options: Any) -> _core.Origin:
+def origin(function: str, seed: int, inputs: list, /, **options: Any) -> _core.Origin:
     """Provenance of an output: the call with the options that are not None, False or empty."""
     said = [f"{name}={value!r}" for name, value in options.items() if value not in (None, False, "", ())]
     return _core.Origin(f"pendular.{function}({', '.join(said)})", seed, inputs)

@@ -29,7 +29,7 @@ class Diagnosis:
     @property
     def probabilities(self) -> dict[str, float]:
         """Of each explanation by its id, most probable first."""
-        return {one["id"]: one["probability"] for one in self.data["explanations"] if not one["excluded"]}
+        return {one["id"]: one["probability"] for one in self.data["hypotheses"] if not one["excluded"]}
 
     def _repr_html_(self) -> str:
         from html import escape
@@ -47,7 +47,7 @@ def diagnose(experiment: PathLike | Mapping[str, Any], out: PathLike, *, levels:
     structured arrays; it is then written to `out`. `levels`: magnitudes from which the response to an effect that draws
     is learnt. `runs`: most runs at the explanations that lead. `confidence`: how often the set of explanations is to
     hold the truth. `leave_out`: effects that are not considered. `fresh_runs`: measure how far the gap shrinks. `plan`:
-    reckon further measurements. Effects added in Python take part; their runs are made in this process."""
+    assess further measurements, with the runs that this lacks. Effects added in Python take part; their runs are made in this process."""
     from . import _pictures
 
     out = Path(out)

@@ -14,7 +14,6 @@
 #include "diagnosis_report/report_folder.h"
 #include "effects/list.h"
 #include "pictures/pictures.h"
-#include "viz/display.h"
 
 namespace pendular::python {
 namespace {
@@ -45,8 +44,9 @@ diagnosis::BankOptions bank_of(const DiagnoseTerms& how) {
 }
 
 /// Writes the report's folder; returns the verdict.
-std::string diagnose(const fs::path& file, const fs::path& out, const DiagnoseTerms& how,
-                     const RunTerms& runs, Origin origin, const Terms& terms) {
+std::string diagnose(const fs::path& file, const fs::path& out, const DiagnoseTerms& how, RunTerms runs,
+                     Origin origin, const Terms& terms) {
+  runs.rows_suffice = true;
   return work(terms, [&] {
     const auto experiment = diagnosis::read_experiment(file);
     diagnosis::require_features(experiment);
@@ -63,8 +63,7 @@ std::string diagnose(const fs::path& file, const fs::path& out, const DiagnoseTe
     auto found = diagnosis::diagnose(experiment, bank, beads, make, rules, {how.fresh_runs, how.plan});
     for (const auto& input : inputs) origin.inputs.push_back(input_of(input));
     found.provenance = provenance_of(origin);
-    const viz::Display display;
-    diagnosis_report::write_report_folder({out, display}, found);
+    diagnosis_report::write_report_folder(out, found);
     for (const auto& warning : found.warnings) warn(warning);
     return found.verdict;
   });

@@ -28,7 +28,7 @@ std::vector<fs::path> render(const fs::path& run, const fs::path& out, const std
                              Origin origin, const Terms& terms) {
   if (!view.empty()) require_view(view);
   return work(terms, [&] {
-    const auto inputs = viz::picture_inputs(run);
+    const auto inputs = picture_inputs(run);
     for (const auto& input : inputs)
       protect_also(fs::is_directory(input) ? files_in(input) : std::vector{input});
     viz::RenderOptions options;

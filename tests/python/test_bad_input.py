@@ -101,8 +101,8 @@ class BadInput(InScratchFolder):
         self.assertEqual([c.exit_status for c in (pendular.UsageError, pendular.InputError, pendular.ComputationError)],
                          [2, 3, 4])
         self.check(pendular.UsageError, ("progress",), pendular.generate, self.sample, progress=3)
-        dense = self.sample.changed({"specimen.volume_fraction": 0.74})
-        self.check(pendular.ComputationError, ("0.74",), pendular.generate, dense)
+        dense = self.sample.changed({"specimen.volume_fraction": 0.64})
+        self.check(pendular.ComputationError, ("0.64",), pendular.generate, dense)
 
     def test_warnings_are_pythons(self):
         with warnings.catch_warnings(record=True) as caught:

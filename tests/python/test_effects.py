@@ -131,7 +131,7 @@ class Effects(InScratchFolder):
     def test_runs_of_a_sweep_are_known_by_what_the_effect_does(self):
         def sweep(name):
             return pendular.sweep({"sweep": {"sample": self.sample},
-                                   "grid": {"effects.soft_bridges": [0.0, 0.5], "compression.max_strain": [0.01]}},
+                                   "grid": {"effects.soft_bridges": [0.0, 0.5], "compression.max_strain": [0.02]}},
                                   self.folder / name, store=self.folder / "store")
 
         self.add(before=softer)
