@@ -96,7 +96,6 @@ std::string measured_otherwise(const Sample& changed) {
 sweep::PackingSource beads_of_member(const Condition& condition, int member, const Sample& changed,
                                      const fs::path& folder) {
   if (condition.beads.empty()) return sweep::generated_packing(static_cast<std::uint64_t>(member));
-  const Packing packing = measured_packing(condition, member, changed);
   const auto& s = condition.sample;
   const std::string name = sha256(
       fmt::format("closed {} {} {} {} {} {}{}{}", sha256_of(condition.beads), member, s.specimen.diameter,
@@ -104,7 +103,7 @@ sweep::PackingSource beads_of_member(const Condition& condition, int member, con
                   condition.network.empty() ? "" : fmt::format(" {}", sha256_of(condition.network))));
   const fs::path path = folder / (name.substr(0, 16) + ".vtp");
   make_inner_folder(folder);
-  if (!fs::exists(path)) write_packing(path, packing);
+  if (!fs::exists(path)) write_packing(path, measured_packing(condition, member, changed));
   return sweep::packing_file(path);
 }
 

@@ -79,30 +79,42 @@ Weigher::Weigher(const Gap& gap, const std::vector<Signature>& signatures,
     }
 }
 
-std::vector<Hypothesis> Weigher::operator()(const Eigen::VectorXd& values, double negligible) const {
-  const ReducedGap gap = space_.gap(values);
+std::vector<Hypothesis> Weigher::of_singles(const ReducedGap& gap, double negligible) const {
   std::vector<Weighed> known = {none(space_, gap)};
   double best = known.front().hypothesis.log_evidence;
   for (const auto& one : singles_) best = std::max(best, one.coarse_evidence(gap));
   for (const auto& one : singles_) known.push_back(one.weigh(gap, best - negligible));
   std::vector<Hypothesis> all = {unknown(known, priors_.like_known)};
   for (auto& one : known) all.push_back(std::move(one.hypothesis));
-  for (const auto& [a, b, run] : pairs_)
-    all.push_back(MagnitudeGrid({reduced_[a], reduced_[b]}, run, space_).weigh(gap).hypothesis);
+  return all;
+}
+
+// Predictions of a pair take much memory and long to make: one pair at a time, for all observations.
+std::vector<std::vector<Hypothesis>> Weigher::operator()(const std::vector<Eigen::VectorXd>& observed,
+                                                         double negligible) const {
+  std::vector<ReducedGap> gaps;
+  for (const auto& values : observed) gaps.push_back(space_.gap(values));
+  std::vector<std::vector<Hypothesis>> all;
+  for (const auto& gap : gaps) all.push_back(of_singles(gap, negligible));
+  for (const auto& [a, b, run] : pairs_) {
+    const MagnitudeGrid grid({reduced_[a], reduced_[b]}, run, space_);
+    for (std::size_t k = 0; k < gaps.size(); ++k) all[k].push_back(grid.weigh(gaps[k]).hypothesis);
+  }
   const double effects = static_cast<double>(singles_.size());
   const double pairs = effects > 1.0 ? priors_.pairs : 0.0;
-  make_probabilities(all, [&](const Hypothesis& h) {
-    if (h.id == "none") return priors_.none;
-    if (h.id == "unknown") return priors_.unknown;
-    if (h.magnitudes.size() == 2) return pairs / (0.5 * effects * (effects - 1.0));
-    return (1.0 - priors_.none - priors_.unknown - pairs) / effects;
-  });
+  for (auto& hypotheses : all)
+    make_probabilities(hypotheses, [&](const Hypothesis& h) {
+      if (h.id == "none") return priors_.none;
+      if (h.id == "unknown") return priors_.unknown;
+      if (h.magnitudes.size() == 2) return pairs / (0.5 * effects * (effects - 1.0));
+      return (1.0 - priors_.none - priors_.unknown - pairs) / effects;
+    });
   return all;
 }
 
 std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& signatures,
                               const std::vector<Together>& together, const Priors& priors, Pairs which) {
-  return Weigher(gap, signatures, together, priors, which)(gap.values);
+  return Weigher(gap, signatures, together, priors, which)({gap.values}).front();
 }
 
 Eigen::MatrixXd isolability(const Gap& gap, const std::vector<Signature>& signatures) {

@@ -43,6 +43,7 @@ DesignPoint point_of(const Changes& changes, int member, bool whole) {
 }  // namespace
 
 std::vector<DesignPoint> leading_points(const Problem& problem, const Priors& priors, const BankPlan& plan) {
+  if (plan.further <= 0) return {};
   const Comparison& readings = problem.readings;
   Priors known = priors;  // before pairs were run what they do looks unknown
   known.unknown = 0.0;

@@ -142,10 +142,16 @@ std::vector<Prediction> MagnitudeGrid::predict(const std::vector<Cell>& cells) c
   return found;
 }
 
-double MagnitudeGrid::coarse_evidence(const ReducedGap& gap) const {
+double MagnitudeGrid::evidence_of(const std::vector<Fitted>& fitted) {
   std::vector<double> weights = {kNever};
-  for (const auto& place : places_) weights.push_back(fit(place, gap).log_weight());
+  for (const auto& one : fitted) weights.push_back(one.log_weight());
   return log_sum(weights);
+}
+
+double MagnitudeGrid::coarse_evidence(const ReducedGap& gap) const {
+  std::vector<Fitted> fitted;
+  for (const auto& place : places_) fitted.push_back(fit(place, gap));
+  return evidence_of(fitted);
 }
 
 Weighed MagnitudeGrid::weigh(const ReducedGap& gap, double least) const {
@@ -155,7 +161,7 @@ Weighed MagnitudeGrid::weigh(const ReducedGap& gap, double least) const {
     for (const auto& place : places) fitted.push_back(fit(place, gap));
   };
   add(places_);
-  const int rounds = coarse_evidence(gap) >= least ? kRefined : 0;
+  const int rounds = evidence_of(fitted) >= least ? kRefined : 0;
   for (int round = 0; round < rounds && !fitted.empty(); ++round) {
     const auto best = std::max_element(fitted.begin(), fitted.end(), [](const Fitted& a, const Fitted& b) {
                         return a.log_density() < b.log_density();
@@ -175,16 +181,15 @@ Weighed MagnitudeGrid::weigh(const ReducedGap& gap, double least) const {
   Weighed found;
   Hypothesis& hypothesis = found.hypothesis;
   hypothesis.chi_squared = std::numeric_limits<double>::infinity();
-  std::vector<double> weights = {kNever}, beside = {kNever};
+  std::vector<double> beside = {kNever};
   for (const auto& one : fitted) {
-    weights.push_back(one.log_weight());
     if (reduced_.size() == 1)  // pairs have no part in it
       for (std::size_t k = 0; k < std::size(kScales); ++k)
         beside.push_back(one.place->log_prior + std::log(kScaleWeights[k]) +
                          beside_unknown(space_, gap, one.place->predictions[k], one.chi_squareds[k]));
     hypothesis.chi_squared = std::min(hypothesis.chi_squared, one.chi_squareds[std::size(kScales) / 2]);
   }
-  hypothesis.log_evidence = log_sum(weights), found.beside_unknown = log_sum(beside);
+  hypothesis.log_evidence = evidence_of(fitted), found.beside_unknown = log_sum(beside);
   for (std::size_t e = 0; e < reduced_.size(); ++e) {
     hypothesis.id += (e > 0 ? "+" : "") + reduced_[e].id;
     hypothesis.magnitudes.push_back(magnitude(e, fitted, hypothesis.log_evidence));

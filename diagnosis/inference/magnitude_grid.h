@@ -49,6 +49,7 @@ class MagnitudeGrid {
 
   static std::vector<std::vector<Cell>> parts_of(const std::vector<Cell>& cells, int parts);
   std::vector<Place> places_at(const std::vector<std::vector<Cell>>& all) const;
+  static double evidence_of(const std::vector<Fitted>& fitted);
   Fitted fit(const Place& place, const ReducedGap& gap) const;
   std::vector<Prediction> predict(const std::vector<Cell>& cells) const;
   Magnitude magnitude(std::size_t effect, const std::vector<Fitted>& fitted, double log_evidence) const;

@@ -62,15 +62,18 @@ std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan
     if (run.id.empty()) baselines.push_back(run.values);
   const Eigen::VectorXd mean = mean_row(baselines, learnt.simulated.size());
   std::vector<Replayed> found;
+  std::vector<Eigen::VectorXd> observed;
   for (std::size_t k = 0; k < held.size(); ++k) {
     const auto& [run, changes] = held[k];
     Replayed one{member, {}, {}};
     for (const auto& [id, theta] : changes)
       if (is_effect(id)) one.truth[id] = theta;
-    const auto seed = kSeedsOfMember * static_cast<std::uint64_t>(member) + k;
-    one.said = weigher(run.values - mean + errors.draw(seed), kNegligible);
     found.push_back(std::move(one));
+    observed.push_back(run.values - mean +
+                       errors.draw(kSeedsOfMember * static_cast<std::uint64_t>(member) + k));
   }
+  auto said = weigher(observed, kNegligible);
+  for (std::size_t k = 0; k < found.size(); ++k) found[k].said = std::move(said[k]);
   return found;
 }
 

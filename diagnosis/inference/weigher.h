@@ -20,14 +20,18 @@ class Weigher {
   Weigher(const Weigher&) = delete;  // its parts refer to its space
   Weigher& operator=(const Weigher&) = delete;
 
-  /// `values`: observed less simulated, as Gap::values. Magnitudes of single effects whose evidence is less
-  /// than e^−negligible of the best one's are told coarsely.
-  std::vector<Hypothesis> operator()(const Eigen::VectorXd& values,
-                                     double negligible = std::numeric_limits<double>::infinity()) const;
+  /// The explanations of each of some observations: observed less simulated, as Gap::values. Magnitudes of
+  /// single effects whose evidence is less than e^−negligible of the best one's are told coarsely.
+  std::vector<std::vector<Hypothesis>> operator()(
+      const std::vector<Eigen::VectorXd>& observed,
+      double negligible = std::numeric_limits<double>::infinity()) const;
 
   const ReducedSpace& space() const { return space_; }
 
  private:
+  /// Unknown, none and single effects, before probabilities.
+  std::vector<Hypothesis> of_singles(const ReducedGap& gap, double negligible) const;
+
   struct Pair {
     std::size_t a, b;
     std::optional<Together> run;
