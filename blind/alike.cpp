@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "diagnosis/inference/comparison.h"
-#include "diagnosis/inference/judgement.h"
+#include "diagnosis/inference/evidence.h"
 #include "effects/list.h"
 
 namespace pendular::blind {

@@ -24,7 +24,8 @@ struct Explanation {
   double probability = 0.0;
   std::vector<Magnitude> magnitudes;  ///< one per effect
   std::vector<std::string> units;     ///< likewise
-  double reduced_chi_squared = 0.0;   ///< at its best magnitudes, χ² over the number of features
+  /// At its best magnitudes, χ² over the number of directions that responses span.
+  double reduced_chi_squared = 0.0;
   bool excluded = false;
   std::string reason = {};  ///< why it is excluded or cannot be told; empty: nothing to say
 };

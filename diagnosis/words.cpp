@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/quantity.h"
-#include "diagnosis/inference/judgement.h"
+#include "diagnosis/inference/evidence.h"
 #include "effects/list.h"
 
 namespace pendular::diagnosis {

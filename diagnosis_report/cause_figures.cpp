@@ -244,9 +244,10 @@ std::optional<Drawn> goodness_figure(const Diagnosis& d) {
   plot.panels = {{"reduced chi-squared", {chi_squared}, {1.0}}};
   return Drawn{
       viz::row_figure(plot),
-      fmt::format("Goodness of fit: χ² over the number of features, of each explanation at its best "
-                  "magnitude; noise alone gives about one (dashed). The best explanation's p-value is {}.",
-                  rounded(d.p_value)),
+      fmt::format(
+          "Misfit: χ² over the number of directions that responses span, of each explanation at its best "
+          "magnitude; noise alone gives about one (dashed). The best explanation's p-value is {}.",
+          rounded(d.p_value)),
       table};
 }
 

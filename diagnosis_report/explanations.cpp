@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "diagnosis/inference/judgement.h"
+#include "diagnosis/inference/evidence.h"
 #include "viz/labels.h"
 
 namespace pendular::diagnosis_report {

@@ -9,7 +9,7 @@
 
 #include "diagnosis/bank/design.h"
 #include "diagnosis/experiment/further_measurements.h"
-#include "diagnosis/inference/judgement.h"
+#include "diagnosis/inference/calibration.h"
 #include "effects/list.h"
 
 namespace pendular::diagnosis {
@@ -111,10 +111,6 @@ class Prospect {
   std::size_t failed_ = 0;
   std::vector<sweep::RunRequest> requests_;
 };
-
-std::string truth_of(const Replayed& one) {
-  return one.truth.empty() ? "none" : one.truth.begin()->first;
-}
 
 /// How likely a magnitude is by what is known of it, at the resolution of a bank.
 double likelihood(const Magnitude& known, double theta) {

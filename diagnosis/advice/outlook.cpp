@@ -42,11 +42,10 @@ Outlook outlook_of(const std::vector<Replayed>& replayed, double confidence,
     if (w <= 0.0) continue;
     const auto said = corrected(one.said, promise.correction);
     const auto set = set_of(said, promise.correction);
-    const std::string truth = one.truth.empty() ? "none" : one.truth.begin()->first;
     sum += w;
     outlook.set_size += w * static_cast<double>(set.ids.size());
     outlook.entropy += w * entropy_of(said);
-    outlook.settled += w * (set.ids.size() == 1 && holds(set.ids, truth));
+    outlook.settled += w * (set.ids.size() == 1 && holds(set.ids, truth_of(one)));
   }
   if (sum > 0.0) outlook.set_size /= sum, outlook.entropy /= sum, outlook.settled /= sum;
   return outlook;

@@ -24,14 +24,19 @@ constexpr double kBins[] = {0.0, 0.4, 0.6, 0.8, 0.9, 1.0};
 constexpr const char* kNone = "none";
 constexpr const char* kUnknown = "unknown";
 
-std::string truth_of(const Replayed& one) {
-  return one.truth.empty() ? kNone : one.truth.begin()->first;
-}
-
 const Hypothesis* said_of(const std::vector<Hypothesis>& said, const std::string& id) {
   for (const auto& h : said)
     if (h.id == id) return &h;
   return nullptr;
+}
+
+/// What stands for an explanation that is not told from it: none for an effect; its effects and none for a
+/// pair.
+std::vector<std::string> plainer(const std::string& id) {
+  std::vector<std::string> ids = effects_in(id);
+  if (ids.size() < 2) ids.clear();
+  ids.emplace_back(kNone);
+  return ids;
 }
 
 /// The least value that ⌈(n+1) share⌉ of these do not exceed: of the n+1 to come as many, whatever their law.
@@ -89,9 +94,13 @@ bool holds(const AmbiguitySet& set, const std::string& id) {
   return std::find(set.ids.begin(), set.ids.end(), id) != set.ids.end();
 }
 
-/// Whether a set is right: it holds the truth, or none where the truth is unseen.
+bool holds_any(const AmbiguitySet& set, const std::vector<std::string>& ids) {
+  return std::any_of(ids.begin(), ids.end(), [&](const std::string& id) { return holds(set, id); });
+}
+
+/// Whether a set is right: it holds the truth, or what stands for it where the truth is unseen.
 bool right(const AmbiguitySet& set, const std::string& truth, const Correction& correction) {
-  return holds(set, truth) || (correction.unseen.contains(truth) && holds(set, kNone));
+  return holds(set, truth) || (correction.unseen.contains(truth) && holds_any(set, plainer(truth)));
 }
 
 /// Truths in the order of the level that they need at the mean, split in two where the parts differ most; one
@@ -127,7 +136,8 @@ void learn_levels(const std::vector<std::vector<Hypothesis>>& said, const Cases&
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const std::string truth = truth_of(*cases[k]);
     double level = before(said[k], truth);
-    if (found.unseen.contains(truth)) level = std::min(level, before(said[k], kNone));
+    if (found.unseen.contains(truth))
+      for (const auto& id : plainer(truth)) level = std::min(level, before(said[k], id));
     needed[truth].push_back(level);
   }
   std::vector<double> beyond;  // levels that are needed where a cluster's own does not do
@@ -143,7 +153,7 @@ void learn_levels(const std::vector<std::vector<Hypothesis>>& said, const Cases&
   for (auto& [id, level] : found.levels) level = std::max(level, found.level);
 }
 
-/// Probability that of n runs at least so many are told from none by slips alone.
+/// Probability that of n runs at least so many are told apart by slips alone.
 double by_slips(int told, int n) {
   double below = 0.0, term = std::pow(1.0 - kBySlip, n);
   for (int k = 0; k < told; ++k) {
@@ -153,13 +163,15 @@ double by_slips(int told, int n) {
   return 1.0 - below;
 }
 
-/// Effects whose runs are told from none no more often than runs without one may be.
-std::set<std::string> unseen_effects(const std::vector<std::vector<Hypothesis>>& said, const Cases& cases,
-                                     const Correction& correction) {
-  std::map<std::string, std::pair<int, int>> told;  // of an effect's runs, and all
+/// Effects whose runs are told from none, and pairs whose runs are told from their effects and none, no more
+/// often than slips explain.
+std::set<std::string> unseen_in(const std::vector<std::vector<Hypothesis>>& said, const Cases& cases,
+                                const Correction& correction) {
+  std::map<std::string, std::pair<int, int>> told;  // runs told apart, and all
   for (std::size_t k = 0; k < cases.size(); ++k) {
-    auto& [apart, all] = told[truth_of(*cases[k])];
-    apart += !holds(set_of(said[k], correction), kNone), ++all;
+    const std::string truth = truth_of(*cases[k]);
+    auto& [apart, all] = told[truth];
+    apart += !holds_any(set_of(said[k], correction), plainer(truth)), ++all;
   }
   std::set<std::string> unseen;
   for (const auto& [id, counts] : told)
@@ -172,8 +184,9 @@ void learn_magnitudes(const Cases& cases, Correction& found) {
   std::vector<double> all, limits;
   std::map<std::string, std::vector<double>> widenings;
   for (const auto* one : cases) {
+    if (one->truth.size() != 1) continue;
     const Hypothesis* truth = said_of(one->said, truth_of(*one));
-    if (one->truth.empty() || !truth) continue;
+    if (!truth) continue;
     all.push_back(needed_widening(truth->magnitudes.front(), one->truth.begin()->second));
     widenings[truth->id].push_back(all.back());
   }
@@ -187,8 +200,9 @@ void learn_magnitudes(const Cases& cases, Correction& found) {
   }
   found.widening_of_limits = 1.0;
   for (const auto* one : cases) {
+    if (one->truth.size() != 1) continue;
     const auto said = corrected(one->said, found);
-    if (const Hypothesis* truth = said_of(said, truth_of(*one)); truth && !one->truth.empty())
+    if (const Hypothesis* truth = said_of(said, truth_of(*one)))
       limits.push_back(std::fabs(one->truth.begin()->second) /
                        std::max(1e-12, upper_limit(truth->magnitudes.front(), found)));
   }
@@ -206,7 +220,7 @@ Correction learn(const Cases& cases, double confidence) {
   }
   found.gate = conformal(std::move(alarms), 1.0 - kFalseAlarms);
   learn_levels(said, cases, confidence, found);
-  found.unseen = unseen_effects(said, cases, found);
+  found.unseen = unseen_in(said, cases, found);
   learn_levels(said, cases, confidence, found);
   learn_magnitudes(cases, found);
   return found;
@@ -232,23 +246,40 @@ void count(const Replayed& one, const Correction& correction, Promise& promise,
   effect.first += said.front().id == truth;
   effect.in_set += right(set, truth, correction);
   const Hypothesis* named = said_of(said, truth);
-  if (!named) return;
+  if (!named || one.truth.size() > 1) return;
   const auto& [low, high] = named->magnitudes.front().interval_90;
   const double theta = one.truth.begin()->second;
   promise.theta_held += low <= theta && theta <= high, magnitudes += 1.0;
   promise.limits_held += std::fabs(theta) <= upper_limit(named->magnitudes.front(), correction);
 }
 
-/// "a+b" stands beside a or b.
-bool adds_to(const std::string& pair, const std::vector<std::string>& ids) {
-  const auto plus = pair.find('+');
-  if (plus == std::string::npos) return false;
-  return std::any_of(ids.begin(), ids.end(), [&](const std::string& id) {
-    return id == pair.substr(0, plus) || id == pair.substr(plus + 1);
-  });
+/// Whether something stands in the set for an unseen explanation: none, or an effect of a pair that is more
+/// probable than the pair.
+bool stood_for(const Hypothesis& h, const std::vector<Hypothesis>& said, const AmbiguitySet& set,
+               const Correction& correction) {
+  if (!correction.unseen.contains(h.id)) return false;
+  for (const auto& id : plainer(h.id)) {
+    const Hypothesis* other = said_of(said, id);
+    const bool ranks = effects_in(h.id).size() < 2 || (other && other->probability > h.probability);
+    if (holds(set, id) && ranks) return true;
+  }
+  return false;
 }
 
 }  // namespace
+
+std::string truth_of(const Replayed& one) {
+  if (one.truth.empty()) return kNone;
+  for (const auto& h : one.said) {
+    const auto ids = effects_in(h.id);
+    if (ids.size() == one.truth.size() &&
+        std::all_of(ids.begin(), ids.end(), [&](const std::string& id) { return one.truth.contains(id); }))
+      return h.id;
+  }
+  std::string joined;
+  for (const auto& [id, theta] : one.truth) joined += (joined.empty() ? "" : "+") + id;
+  return joined;
+}
 
 double upper_limit(const Magnitude& magnitude, const Correction& correction) {
   return correction.widening_of_limits *
@@ -286,16 +317,17 @@ AmbiguitySet set_of(const std::vector<Hypothesis>& said, const Correction& corre
     for (const auto& h : said) {
       if (h.id == kUnknown) continue;
       const auto own = correction.levels.find(h.id);
-      const bool in = held <= (own == correction.levels.end() ? correction.level : own->second);
-      if (in && !adds_to(h.id, set.ids)) set.ids.push_back(h.id);
+      if (held <= (own == correction.levels.end() ? correction.level : own->second)) set.ids.push_back(h.id);
       held += h.probability / known;
     }
   }
-  if (holds(set, kNone))
-    std::erase_if(set.ids, [&](const std::string& id) { return correction.unseen.contains(id); });
+  std::set<std::string> behind;
+  for (const auto& h : said)
+    if (stood_for(h, said, set, correction)) behind.insert(h.id);
+  std::erase_if(set.ids, [&](const std::string& id) { return behind.contains(id); });
   if (unknown && !first && unknown->probability > correction.gate) set.ids.push_back(kUnknown);
   for (const auto& h : said)
-    if (holds(set, h.id) || adds_to(h.id, set.ids)) set.probability += h.probability;
+    if (holds(set, h.id) || behind.contains(h.id)) set.probability += h.probability;
   return set;
 }
 
@@ -306,7 +338,9 @@ Promise promise_of(const std::vector<Replayed>& replayed, double confidence) {
   Cases cases;
   std::set<int> members;
   for (const auto& one : replayed)
-    if (one.truth.size() < 2) cases.push_back(&one), members.insert(one.member);
+    // A pair whose runs are all of one member is not known where that member is left out.
+    if (one.truth.size() < 2 || said_of(one.said, truth_of(one)))
+      cases.push_back(&one), members.insert(one.member);
   if (cases.size() < kLeastCases || members.size() < 3) return promise;
   promise.cases = cases.size();
   promise.correction = learn(cases, confidence);

@@ -15,8 +15,8 @@ struct Reliability {
   std::size_t cases = 0;
 };
 
-/// What the replay says of an effect: how many of its runs were told from none, named first, and answered by
-/// a right set.
+/// What the replay says of an effect, or of a pair that was run: how many of its runs were told from none,
+/// named first, and answered by a right set.
 struct EffectReplay {
   std::size_t cases = 0, told_from_none = 0, first = 0, in_set = 0;
 };
@@ -30,9 +30,14 @@ struct Correction {
   double gate = 0.1;                          ///< probability of `unknown` from which it belongs to the set
   std::map<std::string, double> widening = {};  ///< of an effect's interval of θ
   double widening_of_others = 2.0;
-  double widening_of_limits = 2.0;    ///< of upper limits of |θ|, beside that of intervals
-  std::set<std::string> unseen = {};  ///< effects that a set which holds none does not hold
+  double widening_of_limits = 2.0;  ///< of upper limits of |θ|, beside that of intervals
+  /// Effects that a set which holds none does not hold; pairs that it does not hold beside a more probable
+  /// effect of theirs, or none.
+  std::set<std::string> unseen = {};
 };
+
+/// The explanation that is right for a replayed run.
+std::string truth_of(const Replayed& one);
 
 /// Upper limit of |θ|, at 95 %, of an effect that is there: the farther end of its corrected interval,
 /// widened.
@@ -58,10 +63,11 @@ struct Promise {
   Correction correction;
 };
 
-/// From replayed runs with one effect or none. `confidence` in (0, 1). Sets are split-conformal: the least
-/// level at which ⌈(n+1) confidence⌉ of n replayed sets hold their truth (Vovk et al. 2005). Effects whose
-/// runs are told from none at that level no more often than slips of 5 % explain (binomial test at 5 %) are
-/// unseen: a set that holds none stands for them, and the level is found again. `unknown` is let in by the
+/// From replayed runs with no effect, one, or a pair that was run. `confidence` in (0, 1). Sets are
+/// split-conformal: the least level at which ⌈(n+1) confidence⌉ of n replayed sets hold their truth (Vovk et
+/// al. 2005). Effects whose runs are told from none at that level no more often than slips of 5 % explain
+/// (binomial test at 5 %) are unseen: a set that holds none stands for them, and the level is found again.
+/// Pairs that are not told from one of their effects likewise. `unknown` is let in by the
 /// same rule at a false-alarm rate of 5 %; intervals of θ likewise at 90 %, those of effects with few runs
 /// drawn to what all need; upper limits at 95 %.
 Promise promise_of(const std::vector<Replayed>& replayed, double confidence);
@@ -70,8 +76,8 @@ Promise promise_of(const std::vector<Replayed>& replayed, double confidence);
 std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction);
 
 /// Of corrected explanations: `unknown` where it passes the gate, alone where it has nineteen twentieths; and
-/// the most probable of the others until they hold the level, without unseen effects where none is among
-/// them. Pairs that only add to one that is in count for it.
+/// the most probable of the others until they hold the level, without the unseen that another one in the set
+/// stands for.
 AmbiguitySet set_of(const std::vector<Hypothesis>& corrected, const Correction& correction);
 
 }  // namespace pendular::diagnosis

@@ -30,6 +30,9 @@ struct Hypothesis {
   double chi_squared = 0.0;           ///< at the best magnitudes
 };
 
+/// Effects that an explanation holds: none in "none" and "unknown", two in "a+b".
+std::vector<std::string> effects_in(const std::string& id);
+
 /// Which pairs are weighed: all, or those of which it is known what they do together.
 enum class Pairs { all, run };
 

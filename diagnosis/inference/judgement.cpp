@@ -123,14 +123,15 @@ Priors priors_of(const Comparison& readings, const Rules& rules) {
   return priors;
 }
 
-void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hypotheses, const Rules& rules,
-                      const BankPlan& plan, Diagnosis& diagnosis) {
+/// `directions`: of the reduced space in which χ² is.
+void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+                      Eigen::Index directions, const Rules& rules, const BankPlan& plan,
+                      Diagnosis& diagnosis) {
   double chi_squared_of_none = 0.0;
   for (const auto& h : hypotheses)
     if (h.id == "none") chi_squared_of_none = h.chi_squared;
-  const double features = static_cast<double>(problem.readings.observed.features.size());
   for (const auto& h : hypotheses) {
-    Explanation e{h.id, h.probability, h.magnitudes, {}, h.chi_squared / features};
+    Explanation e{h.id, h.probability, h.magnitudes, {}, h.chi_squared / static_cast<double>(directions)};
     const auto ids = effects_in(h.id);
     for (const auto& id : ids) e.units.push_back(effects::find_effect(id, "diagnosis").unit);
     if (ids.size() == 1 && h.probability < rules.excluded &&
@@ -153,7 +154,8 @@ void set_unseen(const std::vector<Hypothesis>& hypotheses, Diagnosis& diagnosis)
   const Correction& correction = diagnosis.promise.correction;
   const auto& set = diagnosis.ambiguity_set;
   for (const auto& h : hypotheses)
-    if (correction.unseen.contains(h.id) && std::find(set.begin(), set.end(), h.id) == set.end()) {
+    if (h.magnitudes.size() == 1 && correction.unseen.contains(h.id) &&
+        std::find(set.begin(), set.end(), h.id) == set.end()) {
       const effects::Effect& effect = effects::find_effect(h.id, "diagnosis");
       const double largest = std::max(std::fabs(effect.lowest), std::fabs(effect.highest));
       diagnosis.unseen.push_back(
@@ -216,13 +218,6 @@ void set_signatures(const Problem& problem, Diagnosis& diagnosis) {
 
 }  // namespace
 
-std::vector<std::string> effects_in(const std::string& id) {
-  if (id == "none" || id == "unknown") return {};
-  const auto plus = id.find('+');
-  if (plus == std::string::npos) return {id};
-  return {id.substr(0, plus), id.substr(plus + 1)};
-}
-
 Changes fitted_changes(const Problem& problem, const std::vector<std::string>& ids,
                        const std::vector<std::size_t>& observations) {
   const auto features = features_from(problem.readings, observations);
@@ -259,8 +254,8 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   const auto hypotheses =
       corrected(weigh(readings.gap, readings.signatures, readings.together, priors, Pairs::run),
                 diagnosis.promise.correction);
-  set_explanations(problem, within_range(hypotheses), rules, plan, diagnosis);
   const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();
+  set_explanations(problem, within_range(hypotheses), directions, rules, plan, diagnosis);
   diagnosis.nearest_signature = nearest_signature(hypotheses, directions);
   const Hypothesis& best = hypotheses.front();
   diagnosis.p_value = p_value_of(best.chi_squared, directions, readings.gap.dof);

@@ -26,7 +26,4 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
 Changes fitted_changes(const Problem& problem, const std::vector<std::string>& ids,
                        const std::vector<std::size_t>& observations);
 
-/// "a+b" → a, b; nothing for "none" and "unknown".
-std::vector<std::string> effects_in(const std::string& id);
-
 }  // namespace pendular::diagnosis

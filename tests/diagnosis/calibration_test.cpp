@@ -100,14 +100,36 @@ TEST(Calibration, UnknownIsLetInByItsOwnGate) {
   EXPECT_EQ(set_of(said(0.99), correction).ids, (Ids{"unknown"}));
 }
 
-TEST(Calibration, APairStandsBehindWhatItAddsTo) {
+TEST(Calibration, APairStandsBesideItsEffectsUnlessItIsNotToldFromThem) {
   Correction correction;
   correction.level = 0.95;
   const std::vector<Hypothesis> said = {
       {"a", 0.0, 0.6, {}, 0.0}, {"a+b", 0.0, 0.36, {}, 0.0}, {"c", 0.0, 0.04, {}, 0.0}};
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(set_of(said, correction).ids, (Ids{"a", "a+b"}));
+  correction.unseen = {"a+b"};
   const AmbiguitySet set = set_of(said, correction);
-  EXPECT_EQ(set.ids, (std::vector<std::string>{"a"}));
+  EXPECT_EQ(set.ids, (Ids{"a"}));
   EXPECT_NEAR(set.probability, 0.96, 1e-12);
+  // A pair that is more probable than both of its effects stands by itself.
+  EXPECT_EQ(set_of({{"a+b", 0.0, 0.6, {}, 0.0}, {"a", 0.0, 0.4, {}, 0.0}}, correction).ids,
+            (Ids{"a+b", "a"}));
+}
+
+TEST(Calibration, PairsThatWereRunAreInSetsAsOftenAsAsked) {
+  // Runs of b and c together say so with the evidence that others have for what is true of them.
+  auto all = runs(1.0, 1.0, 8);
+  const auto rename = [](std::string& id) { id = id == "b" ? "b+c" : id; };
+  for (auto& one : all) {
+    if (one.truth.contains("b")) one.truth = {{"b", 1.0}, {"c", 1.0}};
+    for (auto& h : one.said) rename(h.id);
+  }
+  EXPECT_EQ(truth_of(all[2]), "b+c");
+  const Promise promise = promise_of(all, 0.9);
+  EXPECT_EQ(promise.cases, all.size());
+  const EffectReplay& pair = promise.effects.at("b+c");
+  EXPECT_EQ(pair.cases, all.size() / 4);
+  EXPECT_GT(static_cast<double>(pair.in_set), 0.82 * static_cast<double>(pair.cases));
 }
 
 TEST(Calibration, TooFewRunsPromiseNothingAndWiden) {

@@ -159,6 +159,40 @@ TEST(Evidence, WhatABelievedInputCanAbsorbIsNoEffect) {
   EXPECT_EQ(weigh(gap, all).front().id, "none");
 }
 
+TEST(Evidence, AnotherReadingOfTheLawIsAShareOfItsOwn) {
+  // One feature of 3 and a reading of the law of one standard deviation 2: three quarters N(3; 0, 1), a
+  // quarter N(3; 0, 1 + 4 · 4).
+  Signature s = effects(1, 1.0).front();
+  s.powers = {Eigen::VectorXd::Constant(1, 1.0)};
+  Gap gap = {Eigen::VectorXd::Constant(1, 3.0),
+             Eigen::MatrixXd::Constant(1, 1, 1.0),
+             0.0,
+             {},
+             Eigen::MatrixXd::Constant(1, 1, 2.0)};
+  gap.readings = {0};
+  const auto normal = [](double variance) {
+    return std::exp(-4.5 / variance) / std::sqrt(2.0 * M_PI * variance);
+  };
+  for (const auto& h : weigh(gap, {s}))
+    if (h.id == "none") {
+      EXPECT_NEAR(h.log_evidence, std::log(0.75 * normal(1.0) + 0.25 * normal(17.0)), 1e-9);
+    }
+}
+
+TEST(Evidence, UnknownMayDoWhatAPairDoes) {
+  const auto all = effects(4, 12.0);
+  const Gap gap = gap_of(all[0].at(1.0) + all[1].at(1.0));
+  const std::vector<Together> run = {{"a", "b", 1.0, 1.0, Eigen::VectorXd::Zero(kFeatures)}};
+  Priors priors;
+  const auto ratio = [&](double like_known) {
+    priors.like_known = like_known;
+    const auto found = weigh(gap, all, run, priors, Pairs::run);
+    return probability(found, "unknown") / probability(found, "a+b");
+  };
+  // Of the prior of `unknown` over that of effects and pairs.
+  EXPECT_NEAR(ratio(0.5) - ratio(1e-6), 0.5 * priors.unknown / (1.0 - priors.none - priors.unknown), 0.02);
+}
+
 TEST(Evidence, AnEstimatedCovarianceIsTrustedLess) {
   // The same gap of four noises: with six degrees of freedom it is less of a surprise than with many.
   Gap gap = gap_of(Eigen::VectorXd::Constant(kFeatures, 1.5));
