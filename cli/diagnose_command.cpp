@@ -13,6 +13,7 @@
 #include "diagnosis/bank/feature_values.h"
 #include "diagnosis/diagnose.h"
 #include "diagnosis/experiment/further_measurements.h"
+#include "diagnosis/words.h"
 #include "diagnosis_report/plan_folder.h"
 #include "diagnosis_report/report_folder.h"
 #include "effects/list.h"
@@ -68,10 +69,10 @@ std::string in_words(const diagnosis::NextSteps& steps) {
   if (steps.now.cases == 0) return "the bank is too small to tell what measurements would bring";
   std::string words = fmt::format("A compression curve of a scanned specimen leaves {:.1f} explanations.",
                                   steps.now.set_size);
-  if (steps.experiments.empty()) return words + " No measurement of the list leaves fewer.";
+  if (steps.experiments.empty()) return words + " No measurement of the list tells more.";
   const auto& first = steps.experiments.front();
-  return words + fmt::format(" Best value: {} ({}), which leaves {:.1f}.", first.observation, first.why,
-                             first.outlook.set_size);
+  return words + fmt::format(" Best value: {} ({}), which is expected to {}.", first.observation, first.why,
+                             diagnosis::outlook_in_words(first.outlook, steps.now));
 }
 
 /// Before anything is measured.

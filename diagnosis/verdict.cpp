@@ -53,8 +53,8 @@ std::string what_next(const Diagnosis& diagnosis) {
   const auto& next = diagnosis.next;
   if (!next.experiments.empty() && next.experiments.front().outlook.cases > 0) {
     const auto& first = next.experiments.front();
-    return fmt::format(" Next: {} – {}; it is expected to leave {:.1f} explanations of {:.1f}.",
-                       first.observation, first.why, first.outlook.set_size, next.now.set_size);
+    return fmt::format(" Next: {} – {}; it is expected to {}.", first.observation, first.why,
+                       outlook_in_words(first.outlook, next.now));
   }
   if (diagnosis.ambiguity_set.size() < 2 && diagnosis.explanations.front().id != "unknown")
     return " No further measurement is needed.";

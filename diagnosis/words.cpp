@@ -96,6 +96,17 @@ std::string in_words(const Shrinkage& shrinkage) {
   return quantity(shrinkage.fraction, shrinkage.interval_90, "fraction");
 }
 
+std::string outlook_in_words(const Outlook& with, const Outlook& without) {
+  const std::string left = fmt::format("{:.1f}", with.set_size),
+                    now = fmt::format("{:.1f}", without.set_size);
+  if (with.set_size < without.set_size && left != now)
+    return fmt::format("leave {} explanations of {}", left, now);
+  if (with.settled > without.settled && percent(with.settled) != percent(without.settled))
+    return fmt::format("leave one explanation in {} of such experiments instead of {}", percent(with.settled),
+                       percent(without.settled));
+  return "make the right explanation more probable";
+}
+
 std::string joined(const std::vector<std::string>& words, std::size_t most, const char* last) {
   std::vector<std::string> shown(words.begin(), words.begin() + std::min(words.size(), most));
   if (words.size() > most) shown.push_back(fmt::format("{} more", words.size() - most));

@@ -76,6 +76,14 @@ TEST(Verdict, BeginsWithTheCauseAndWhatToDoNext) {
   EXPECT_TRUE(says(d, "No further measurement is needed."));
 }
 
+TEST(Verdict, AMeasurementThatLeavesAsManyIsNotSaidToLeaveFewer) {
+  const Outlook now = {.cases = 50, .set_size = 1.04, .settled = 0.60};
+  EXPECT_EQ(outlook_in_words({.cases = 50, .set_size = 1.0, .settled = 0.9}, now),
+            "leave one explanation in 90 % of such experiments instead of 60 %");
+  EXPECT_EQ(outlook_in_words({.cases = 50, .set_size = 1.3, .settled = 0.5}, now),
+            "make the right explanation more probable");
+}
+
 TEST(Verdict, SaysPlainlyWhenItDoesNotKnow) {
   const Explanation tilt{"platen_tilt", 0.3, {{0.5, {0.2, 0.8}}}, {"degrees"}};
   EXPECT_TRUE(
