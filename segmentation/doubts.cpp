@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/median.h"
+#include "base/quantile.h"
 #include "base/parallel.h"
 
 namespace pendular {

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
-#include "base/median.h"
+#include "base/quantile.h"
 #include "base/parallel.h"
 #include "packing/bridges.h"
 #include "packing/statistics.h"

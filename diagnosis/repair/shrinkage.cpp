@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/distributions.h"
 #include "base/random.h"
 #include "diagnosis/experiment/specimens.h"
 #include "diagnosis/words.h"
@@ -24,12 +25,6 @@ Indices all_features(const Comparison& landmarks) {
   Indices all(landmarks.observed.features.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
   return all;
-}
-
-/// 95 % quantile of χ² with so many degrees of freedom (Wilson & Hilferty 1931).
-double largest_of_noise(double features) {
-  const double v = 2.0 / (9.0 * features);
-  return features * std::pow(1.0 - v + 1.645 * std::sqrt(v), 3);
 }
 
 /// √max(0, d²/p − noise): `noise` is what noise alone makes of d²/p.
@@ -228,7 +223,7 @@ Shrinkage shrinkage_of(const Gap& before, const Eigen::VectorXd& after) {
   found.before = excess_of(factor, before.values, 1.0);
   found.after = excess_of(factor, after, 1.0);
   found.nothing_to_close = before.values.dot(factor.solve(before.values)) <=
-                           largest_of_noise(static_cast<double>(before.values.size()));
+                           chi_squared_quantile(0.95, static_cast<double>(before.values.size()));
   if (found.nothing_to_close) return found;
   const auto fraction = [](double was, double is) { return was > 0.0 ? 1.0 - is / was : 0.0; };
   found.fraction = fraction(found.before, found.after);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/median.h"
+#include "base/quantile.h"
 #include "segmentation/bridges/bridge_search.h"
 #include "segmentation/bridges/crevice.h"
 #include "segmentation/fit/ball_profile.h"

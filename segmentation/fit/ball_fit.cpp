@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/median.h"
+#include "base/quantile.h"
 #include "segmentation/fit/ball_profile.h"
 #include "segmentation/fit/rings.h"
 

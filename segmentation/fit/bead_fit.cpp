@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "base/batches.h"
-#include "base/median.h"
+#include "base/quantile.h"
 #include "segmentation/fit/level_field.h"
 
 namespace pendular {

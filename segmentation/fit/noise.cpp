@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/median.h"
+#include "base/quantile.h"
 #include "base/parallel.h"
 #include "segmentation/fit/ball_profile.h"
 #include "segmentation/fit/rings.h"

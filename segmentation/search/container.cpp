@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/quantile.h"
 #include "segmentation/search/grey_levels.h"
 
 namespace pendular {
@@ -34,13 +35,8 @@ double range_of(const Grid<float>& grey) {
   const std::size_t step = grey.values.size() / enough + 1;
   std::vector<float> values;
   for (std::size_t n = 0; n < grey.values.size(); n += step) values.push_back(grey.values[n]);
-  const auto quantile = [&](double share) {
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return static_cast<double>(*at);
-  };
-  return values.empty() ? 0.0 : quantile(0.98) - quantile(0.02);
+  return static_cast<double>(lower_quantile(values, 0.98)) -
+         static_cast<double>(lower_quantile(values, 0.02));
 }
 
 /// For each column of nodes, along z: the spread over all slices, where pistons make the columns of beads
@@ -167,8 +163,7 @@ Disc circle_through(std::vector<Eigen::Vector2d> points) {
     };
     std::vector<double> distances;
     for (const auto& p : points) distances.push_back(off(p));
-    std::nth_element(distances.begin(), distances.begin() + distances.size() / 2, distances.end());
-    const double limit = std::max(0.3, 4.5 * distances[distances.size() / 2]);
+    const double limit = std::max(0.3, 4.5 * median(std::move(distances)));
     std::erase_if(points, [&](const auto& p) { return off(p) > limit; });
     if (points.size() < 12) break;
   }
