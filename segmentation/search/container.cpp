@@ -7,16 +7,10 @@
 #include "base/parallel.h"
 #include "base/quantile.h"
 #include "segmentation/search/grey_levels.h"
+#include "segmentation/thresholds.h"
 
 namespace pendular {
 namespace {
-
-// Shares of the range of grey values: a spread that only beads make, or, where they are so small that they
-// blur into each other, at least half of that; and a step that only a wall makes.
-constexpr double busy_spread = 0.2, least_busy_spread = 0.1;
-constexpr double least_step = 0.15;
-// A thin wall behind the first layer of beads steps up less; that it does so on a circle tells it from beads.
-constexpr double least_tube_step = 0.05;
 
 struct MeanAndSpread {
   double mean = 0.0, spread = 0.0;
@@ -67,8 +61,8 @@ std::vector<MeanAndSpread> columns_of(const Grid<float>& grey) {
 double busy_from(const std::vector<MeanAndSpread>& columns, double edge) {
   std::vector<float> spreads;
   for (const MeanAndSpread& column : columns) spreads.push_back(static_cast<float>(column.spread));
-  return std::clamp(grey_levels(histogram_of(spreads)).threshold, least_busy_spread * edge,
-                    busy_spread * edge);
+  return std::clamp(grey_levels(histogram_of(spreads)).threshold, kThresholds.least_busy_spread * edge,
+                    kThresholds.most_busy_spread * edge);
 }
 
 /// A disc in nodes.
@@ -186,7 +180,7 @@ std::optional<Disc> tube_of(const Grid<float>& grey, const std::vector<MeanAndSp
       if (std::isnan(mean)) break;
       profile.push_back(mean);
     }
-    if (const auto r = steepest_rise(profile, from, step, least_tube_step * edge))
+    if (const auto r = steepest_rise(profile, from, step, kThresholds.tube_step * edge))
       points.emplace_back(busy.x + *r * c, busy.y + *r * s);
   }
   if (points.size() < 2 * sectors / 3) return std::nullopt;
@@ -230,7 +224,7 @@ std::optional<double> piston_face(const std::vector<MeanAndSpread>& slices, bool
                        to = std::min<std::ptrdiff_t>(n, last_busy + 8);
   std::vector<double> profile;
   for (std::ptrdiff_t k = from; k < to; ++k) profile.push_back(slice(k).mean);
-  const auto face = steepest_rise(profile, static_cast<double>(from), 1.0, least_step * edge);
+  const auto face = steepest_rise(profile, static_cast<double>(from), 1.0, kThresholds.piston_step * edge);
   if (!face) return std::nullopt;
   return upwards ? *face : static_cast<double>(n - 1) - *face;
 }
