@@ -11,8 +11,8 @@
 #include "packing/bridges.h"
 #include "packing/statistics.h"
 #include "segmentation/bridges/polymer_fit.h"
-#include "segmentation/doubts.h"
 #include "segmentation/fit/bead_fit.h"
+#include "segmentation/image_defects.h"
 #include "segmentation/rows.h"
 #include "segmentation/thresholds.h"
 #include "volume/resample.h"
@@ -140,9 +140,9 @@ BeadSearch search_with(const Volume& volume, const SegmentOptions& options) {
 }
 
 Segmentation segmented(const Volume& volume, const BeadSearch& search, const SegmentOptions& options,
-                       const std::vector<std::string>& doubts) {
+                       const std::vector<std::string>& defects) {
   Segmentation result;
-  result.warnings = doubts;
+  result.warnings = defects;
   FittedBeads fitted = fit_beads(volume, search, options.cutoff);
   if (fitted.fits.empty())
     bad_input(
@@ -180,13 +180,13 @@ Segmentation segment(const Volume& volume, const SegmentOptions& options) {
       bad_input("volume of {} x {} x {} voxels, expected at least 16 along each axis", volume.size[0],
                 volume.size[1], volume.size[2]);
   const BeadSearch search = search_with(volume, options);
-  const auto doubts = doubts_about(volume, search.histogram);
+  const auto defects = image_defects(volume, search.histogram);
   if (!may_refine(volume) || !mostly_spherical(search) ||
       typical_radius(search.seeds) > kThresholds.refined_below)
-    return segmented(volume, search, options, doubts);
+    return segmented(volume, search, options, defects);
   Volume finer = resampled(volume, {2.0, 2.0, 2.0});
   finer.spacing *= 0.5;
-  return segmented(finer, search_with(finer, options), options, doubts);
+  return segmented(finer, search_with(finer, options), options, defects);
 }
 
 }  // namespace pendular

@@ -17,13 +17,13 @@ struct SegmentationThresholds {
   double least_relative_radius = 0.25;  ///< over the typical one [Segment.FindsEveryBeadWhereDiametersVary]
 
   // Fits of beads.
-  double least_contrast = 0.4;   ///< of a bead, over the classes' difference [OddVolumes, Segment]
-  double least_borne_out = 0.4;  ///< share of what is seen of a shell that a ball explains [OddVolumes.Pores]
+  double least_contrast = 0.4;    ///< of a bead, over the classes' difference [OddVolumes, Segment]
+  double least_explained = 0.4;   ///< share of a seen shell that a ball explains [OddVolumes.Pores]
   double least_separation = 0.7;  ///< of two balls, over the sum of their radii [Segment]
-  double odd_misfit = 0.15;  ///< residual beyond the noise over contrast, of broken beads [OddVolumes.Pores]
-  double foreign_patch = 4.5;  ///< robust standard deviations of a patch's mean [OddVolumes]
-  double half_quality = 0.15;  ///< misfit over contrast at which `quality` is one half: its definition
-  double uneven_core = 2.0;    ///< variance over the middle one, of cores with pores [OddVolumes.Pores]
+  double outlier_misfit = 0.15;   ///< residual beyond the noise, over contrast [OddVolumes.Pores]
+  double foreign_patch = 4.5;     ///< robust standard deviations of a patch's mean [OddVolumes]
+  double half_quality = 0.15;     ///< misfit over contrast at which `quality` is one half: its definition
+  double uneven_core = 2.0;       ///< variance over the middle one, of cores with pores [OddVolumes.Pores]
 
   // Rings.
   double ring_sigmas = 5.0;       ///< of what both halves of the balls see alike [Rings]
@@ -35,7 +35,7 @@ struct SegmentationThresholds {
   double neck_gain = 10.0;         ///< log likelihood ratio of polymer against none [BridgeSearch]
   double neck_sigmas = 4.0;        ///< of the polymer's contrast [BridgeSearch]
 
-  // Doubts about a volume.
+  // Defects of an image.
   double slice_rise = 1.25;      ///< change to the next slice over the usual one [OddVolumes.LostAndRepeated]
   double slice_over_next = 4.0;  ///< excess of a change over those beside it [OddVolumes.LostAndRepeated]
   double slice_alike = 0.3;      ///< spreads between the means before and after [OddVolumes.LostAndRepeated]

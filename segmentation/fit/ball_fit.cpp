@@ -287,7 +287,7 @@ BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::siz
   }
   const auto& [q, now, converged] = solution;
   fit.converged = converged;
-  fit.borne_out = static_cast<double>(shell.samples.size()) / all;
+  fit.explained_share = static_cast<double>(shell.samples.size()) / all;
   const double n = static_cast<double>(shell.samples.size());
   const double variance = now.squares / (n - 6.0);
   const Normal inverse = now.matrix.ldlt().solve(Normal::Identity());

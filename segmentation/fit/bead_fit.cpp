@@ -47,7 +47,7 @@ void reject(std::vector<BallFit>& fits, const Volume& volume, const BeadSearch& 
   const double needed =
       kThresholds.least_contrast * (search.levels.bright - search.levels.dark) * (search.bright ? 1.0 : -1.0);
   std::erase_if(fits, [&](const BallFit& fit) {
-    return !fit.converged || fit.borne_out < kThresholds.least_borne_out ||
+    return !fit.converged || fit.explained_share < kThresholds.least_explained ||
            fit.ball.contrast / needed < 1.0 || fit.ball.radius < search.least_radius ||
            outside(volume, fit.ball.centre) ||
            (search.container && !within(*search.container, fit.ball.centre));
@@ -68,11 +68,12 @@ void reject(std::vector<BallFit>& fits, const Volume& volume, const BeadSearch& 
 }
 
 /// Drops the few among balls that fit far worse, as broken ones do; grains that are all irregular stay.
-void leave_out_odd(std::vector<BallFit>& fits, double noise) {
-  const auto odd = [noise](const BallFit& fit) {
-    return fit.residual > std::hypot(noise, kThresholds.odd_misfit * fit.ball.contrast);
+void drop_outliers(std::vector<BallFit>& fits, double noise) {
+  const auto is_outlier = [noise](const BallFit& fit) {
+    return fit.residual > std::hypot(noise, kThresholds.outlier_misfit * fit.ball.contrast);
   };
-  if (2 * std::count_if(fits.begin(), fits.end(), odd) < std::ssize(fits)) std::erase_if(fits, odd);
+  if (2 * std::count_if(fits.begin(), fits.end(), is_outlier) < std::ssize(fits))
+    std::erase_if(fits, is_outlier);
 }
 
 std::vector<GreyBall> balls_at(const std::vector<Seed>& seeds, const BeadSearch& search) {
@@ -220,7 +221,7 @@ FittedBeads fit_beads(const Volume& volume, const BeadSearch& search, double cut
   if (result.rings) fit_again(rough, "second fits without rings");
   fit_again(last, "last fits");
   result.noise = measure_noise(volume, balls_of(fits), last.half_width, last.rings);
-  leave_out_odd(fits, result.noise.sd);
+  drop_outliers(fits, result.noise.sd);
   result.grains = search_missed(search.mask, seeds_at(fits), search.least_radius);
   result.fits = std::move(fits);
   result.rejected = tried - result.fits.size();

@@ -1,4 +1,4 @@
-#include "segmentation/doubts.h"
+#include "segmentation/image_defects.h"
 
 #include <fmt/format.h>
 
@@ -73,7 +73,7 @@ bool breaks(const std::vector<Slice>& slices, std::size_t k) {
          std::abs(after.spread - before.spread) < kThresholds.slice_alike * before.spread;
 }
 
-void doubt_slices(const Volume& volume, std::vector<std::string>& doubts) {
+void add_slice_defects(const Volume& volume, std::vector<std::string>& defects) {
   std::vector<Slice> slices(volume.size[2]);
   with_pixels(volume, [&](auto pixels) {
     for_blocks(slices.size(), 1,
@@ -88,17 +88,17 @@ void doubt_slices(const Volume& volume, std::vector<std::string>& doubts) {
     else if (breaks(slices, k))
       broken.push_back(k);
   }
-  if (!even.empty()) doubts.push_back(fmt::format("{}, from 0 on: one grey value throughout", named(even)));
+  if (!even.empty()) defects.push_back(fmt::format("{}, from 0 on: one grey value throughout", named(even)));
   if (!repeated.empty())
-    doubts.push_back(fmt::format("{}, from 0 on: the same as the one before", named(repeated)));
+    defects.push_back(fmt::format("{}, from 0 on: the same as the one before", named(repeated)));
   if (!broken.empty())
-    doubts.push_back(fmt::format(
+    defects.push_back(fmt::format(
         "{}, from 0 on: not a continuation of the one before; slices missing, or a moved specimen?",
         named(broken)));
 }
 
 /// Many voxels at the very end of the grey values, and few just within.
-void doubt_end(const Histogram& histogram, bool greatest, std::vector<std::string>& doubts) {
+void add_clipping(const Histogram& histogram, bool greatest, std::vector<std::string>& defects) {
   constexpr double width = 64.0;
   const auto occupied = [](double count) { return count > 0.0; };
   const auto& counts = histogram.counts;
@@ -112,7 +112,7 @@ void doubt_end(const Histogram& histogram, bool greatest, std::vector<std::strin
   const double count = counts[static_cast<std::size_t>(end)];
   const double share = count / std::accumulate(counts.begin(), counts.end(), 0.0);
   if (share < kThresholds.end_share || count < kThresholds.end_over_next * within) return;
-  doubts.push_back(fmt::format(
+  defects.push_back(fmt::format(
       "{:.1f} % of the voxels have the {} grey value, {:.6g}: if grey values were cut off there, diameters "
       "are wrong",
       100.0 * share, greatest ? "greatest" : "least", histogram.centre(static_cast<std::size_t>(end))));
@@ -120,12 +120,12 @@ void doubt_end(const Histogram& histogram, bool greatest, std::vector<std::strin
 
 }  // namespace
 
-std::vector<std::string> doubts_about(const Volume& volume, const Histogram& histogram) {
-  std::vector<std::string> doubts;
-  for (const bool greatest : {false, true}) doubt_end(histogram, greatest, doubts);
-  doubt_slices(volume, doubts);
+std::vector<std::string> image_defects(const Volume& volume, const Histogram& histogram) {
+  std::vector<std::string> defects;
+  for (const bool greatest : {false, true}) add_clipping(histogram, greatest, defects);
+  add_slice_defects(volume, defects);
   release(volume);
-  return doubts;
+  return defects;
 }
 
 }  // namespace pendular
