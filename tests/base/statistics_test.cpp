@@ -18,6 +18,7 @@ TEST(Quantile, OfFewValues) {
   EXPECT_EQ(quantile({4.0, 1.0, 2.0, 3.0}, 0.5), 2.5);
   EXPECT_DOUBLE_EQ(quantile({4.0, 1.0, 2.0, 3.0}, 0.9), 3.7);
   EXPECT_EQ(quantile({4.0, 1.0}, 1.0), 4.0);
+  EXPECT_EQ(quantile({HUGE_VAL, 1.0, 2.0}, 0.5), 2.0);
   EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
 }
 
