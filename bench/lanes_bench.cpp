@@ -12,6 +12,7 @@
 
 #include "base/parallel.h"
 #include "dem_core/compress.h"
+#include "dem_core/law/pair-inl.h"
 #include "dem_core/step/step_kernels.h"
 #include "dem_core/step/stepper.h"
 #include "packing/bridges.h"

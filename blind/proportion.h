@@ -20,8 +20,7 @@ struct Proportion {
 /// receiver operating characteristic. NaN where either is empty.
 double area_under_curve(const std::vector<double>& positives, const std::vector<double>& negatives);
 
-/// Of an even number the mean of both in the middle; NaN of none.
-double median(std::vector<double> values);
+/// NaN of none.
 double mean(const std::vector<double>& values);
 
 }  // namespace pendular::blind

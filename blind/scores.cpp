@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quantile.h"
 #include "diagnosis/inference/evidence.h"
 #include "effects/list.h"
 
@@ -100,7 +101,7 @@ MagnitudeScore magnitudes(const std::vector<Verdict>& verdicts) {
     if (const auto& interval = claim->second.interval_90)
       found.covered.count(interval->first <= theta && theta <= interval->second);
   }
-  found.median_relative_error = median(errors);
+  found.median_relative_error = quantile(errors, 0.5);
   return found;
 }
 
@@ -120,8 +121,10 @@ ShrinkageScore shrinkage(const std::vector<Verdict>& verdicts) {
     above.push_back(withheld.back() - retuned.back());
   }
   found.cases = withheld.size(), found.oracles = closable.size();
-  found.withheld = median(withheld), found.retuned = median(retuned), found.wrong_effect = median(wrong);
-  found.above_retuned = median(above), found.closable = median(closable), found.closed = median(closed);
+  found.withheld = quantile(withheld, 0.5), found.retuned = quantile(retuned, 0.5),
+  found.wrong_effect = quantile(wrong, 0.5);
+  found.above_retuned = quantile(above, 0.5), found.closable = quantile(closable, 0.5),
+  found.closed = quantile(closed, 0.5);
   return found;
 }
 

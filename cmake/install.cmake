@@ -28,7 +28,7 @@ if(PENDULAR_PYTHON)
   install(TARGETS pendular-library EXPORT pendular LIBRARY COMPONENT python NAMELINK_COMPONENT development)
   foreach(folder ${PENDULAR_LIBRARY_FOLDERS})
     install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pendular COMPONENT development
-      FILES_MATCHING PATTERN "*.h" PATTERN "pipette" EXCLUDE)
+      FILES_MATCHING PATTERN "*.h" PATTERN "*-inl.h" EXCLUDE PATTERN "pipette" EXCLUDE)
   endforeach()
   install(EXPORT pendular NAMESPACE pendular:: FILE pendularTargets.cmake DESTINATION ${config} COMPONENT development)
   configure_package_config_file(cmake/pendularConfig.cmake.in ${PROJECT_BINARY_DIR}/pendularConfig.cmake

@@ -241,7 +241,7 @@ void break_bond(Simulation& simulation, Pair& pair) {
   event.j = pair.j;
   event.place = 0.5 * (beads.position[pair.i] + beads.position[pair.j]);
   event.stretch = gap(simulation, pair) - pair.properties.rest;
-  event.shear = std::sqrt(dot(pair.history.bond_slip, pair.history.bond_slip));
+  event.shear = length(pair.history.bond_slip);
   event.energy = break_bond(apart(simulation, pair), beads.radius[pair.i] + beads.radius[pair.j],
                             simulation.law, pair.properties, pair.history);
   simulation.work.broken += event.energy;

@@ -228,7 +228,7 @@ std::optional<Drawn> pull_figure(const Diagnosis& d) {
       table};
 }
 
-std::optional<Drawn> goodness_figure(const Diagnosis& d) {
+std::optional<Drawn> chi_squared_figure(const Diagnosis& d) {
   const Shown shown = shown_of(d);
   viz::RowPlot plot;
   RowSeries chi_squared;

@@ -22,6 +22,6 @@ std::vector<Drawn> magnitude_figures(const diagnosis::Diagnosis& diagnosis);
 std::optional<Drawn> pull_figure(const diagnosis::Diagnosis& diagnosis);
 
 /// What the best magnitudes of each explanation leave.
-std::optional<Drawn> goodness_figure(const diagnosis::Diagnosis& diagnosis);
+std::optional<Drawn> chi_squared_figure(const diagnosis::Diagnosis& diagnosis);
 
 }  // namespace pendular::diagnosis_report

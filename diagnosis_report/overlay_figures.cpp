@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/quantile.h"
 #include "diagnosis_report/overlay_views.h"
 #include "viz/band_plot.h"
 #include "viz/row_plot.h"
@@ -40,14 +41,6 @@ double at(const Trace& trace, double x) {
   return trace.y[k - 1] + t * (trace.y[k] - trace.y[k - 1]);
 }
 
-/// By straight lines between the ordered values.
-double quantile(const std::vector<double>& ordered, double share) {
-  const double place = share * static_cast<double>(ordered.size() - 1);
-  const auto k = std::min(static_cast<std::size_t>(place), ordered.size() - 1);
-  const double next = ordered[std::min(k + 1, ordered.size() - 1)];
-  return ordered[k] + (place - static_cast<double>(k)) * (next - ordered[k]);
-}
-
 Spread spread_of(const OverlayView& view, const std::vector<Columns>& runs, const std::vector<double>& places,
                  const std::string& name, const std::string& label) {
   Spread spread{
@@ -64,10 +57,9 @@ Spread spread_of(const OverlayView& view, const std::vector<Columns>& runs, cons
       const double y = at(trace, x);
       if (std::isfinite(y)) values.push_back(y);
     }
-    std::sort(values.begin(), values.end());
     const bool any = !values.empty();
-    spread.low.push_back(any ? quantile(values, cut) : kNone);
-    spread.high.push_back(any ? quantile(values, 1.0 - cut) : kNone);
+    spread.low.push_back(quantile(values, cut));
+    spread.high.push_back(quantile(values, 1.0 - cut));
     spread.mean.push_back(any ? std::accumulate(values.begin(), values.end(), 0.0) /
                                     static_cast<double>(values.size())
                               : kNone);

@@ -79,7 +79,7 @@ Pictures keep_figures(const Diagnosis& d, Files& files) {
   files.keep(signature_figure(d), pictures.which);
   files.keep(separation_figure(d), pictures.which);
   files.keep(pull_figure(d), pictures.which);
-  files.keep(goodness_figure(d), pictures.which);
+  files.keep(chi_squared_figure(d), pictures.which);
   files.keep(shrinkage_figure(d), pictures.how_far);
   files.keep(next_figure(d.next), pictures.next);
   return pictures;

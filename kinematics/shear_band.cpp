@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/quantile.h"
+
 namespace pendular {
 namespace {
 
@@ -21,11 +23,8 @@ Vec3 direction(int k) {
 /// Strains of the few beads that come loose at the surface are many times those of any band.
 std::vector<double> clipped(std::vector<double> values) {
   if (values.empty()) return values;
-  std::vector<double> sorted = values;
-  const auto top =
-      sorted.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(sorted.size() - 1));
-  std::nth_element(sorted.begin(), top, sorted.end());
-  for (double& value : values) value = std::min(value, *top);
+  const double top = lower_quantile(values, 0.95);
+  for (double& value : values) value = std::min(value, top);
   return values;
 }
 

@@ -6,24 +6,24 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
-#include "base/median.h"
 #include "base/parallel.h"
+#include "base/quantile.h"
 #include "packing/bridges.h"
 #include "packing/statistics.h"
 #include "segmentation/bridges/polymer_fit.h"
-#include "segmentation/doubts.h"
 #include "segmentation/fit/bead_fit.h"
+#include "segmentation/image_defects.h"
 #include "segmentation/rows.h"
+#include "segmentation/thresholds.h"
 #include "volume/resample.h"
 
 namespace pendular {
 namespace {
 
 double quality_of(const BallFit& fit, const Noise& noise) {
-  constexpr double half_quality = 0.15;
   const double misfit_squared = std::max(0.0, fit.residual * fit.residual - noise.sd * noise.sd) /
                                 (fit.ball.contrast * fit.ball.contrast);
-  return 1.0 / (1.0 + misfit_squared / (half_quality * half_quality));
+  return 1.0 / (1.0 + misfit_squared / (kThresholds.half_quality * kThresholds.half_quality));
 }
 
 /// By rising z.
@@ -140,9 +140,9 @@ BeadSearch search_with(const Volume& volume, const SegmentOptions& options) {
 }
 
 Segmentation segmented(const Volume& volume, const BeadSearch& search, const SegmentOptions& options,
-                       const std::vector<std::string>& doubts) {
+                       const std::vector<std::string>& defects) {
   Segmentation result;
-  result.warnings = doubts;
+  result.warnings = defects;
   FittedBeads fitted = fit_beads(volume, search, options.cutoff);
   if (fitted.fits.empty())
     bad_input(
@@ -175,19 +175,18 @@ Segmentation segmented(const Volume& volume, const BeadSearch& search, const Seg
 }  // namespace
 
 Segmentation segment(const Volume& volume, const SegmentOptions& options) {
-  // Voxels; the edges of smaller beads hardly have voxels of their own.
-  constexpr double least_radius = 5.5;
   for (const std::size_t n : volume.size)
     if (n < 16)
       bad_input("volume of {} x {} x {} voxels, expected at least 16 along each axis", volume.size[0],
                 volume.size[1], volume.size[2]);
   const BeadSearch search = search_with(volume, options);
-  const auto doubts = doubts_about(volume, search.histogram);
-  if (!may_refine(volume) || !mostly_spherical(search) || typical_radius(search.seeds) > least_radius)
-    return segmented(volume, search, options, doubts);
+  const auto defects = image_defects(volume, search.histogram);
+  if (!may_refine(volume) || !mostly_spherical(search) ||
+      typical_radius(search.seeds) > kThresholds.refined_below)
+    return segmented(volume, search, options, defects);
   Volume finer = resampled(volume, {2.0, 2.0, 2.0});
   finer.spacing *= 0.5;
-  return segmented(finer, search_with(finer, options), options, doubts);
+  return segmented(finer, search_with(finer, options), options, defects);
 }
 
 }  // namespace pendular

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "base/median.h"
+#include "base/quantile.h"
 #include "packing/neighbours.h"
 #include "tracking/rotation.h"
 

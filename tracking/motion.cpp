@@ -6,8 +6,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "base/median.h"
 #include "base/number_cell.h"
+#include "base/quantile.h"
 #include "packing/bridges.h"
 #include "tracking/following.h"
 

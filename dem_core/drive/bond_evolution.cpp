@@ -16,7 +16,7 @@ BondMoment moment_of(Simulation& simulation, Pair& pair, const BondEvolution& ev
   const Vec3 way = apart(simulation, pair);
   const double radii = simulation.beads.radius[pair.i] + simulation.beads.radius[pair.j];
   return {std::max(way.norm() - radii, pair.properties.touch) - pair.properties.rest,
-          std::sqrt(dot(pair.history.bond_slip, pair.history.bond_slip)),
+          length(pair.history.bond_slip),
           simulation.bonds[pair.bond].height,
           elapsed,
           way / way.norm(),

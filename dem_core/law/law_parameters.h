@@ -1,6 +1,15 @@
 #pragma once
 
+// Plain structs of the law between two beads. Real is double, or as many numbers as a register holds
+// (Lanes in numbers-inl.h, which only dem_core's own sources include).
+
 namespace pendular {
+
+/// A vector in space.
+template <typename Real>
+struct Triple {
+  Real x, y, z;
+};
 
 /// What one pair has of its own, SI. A pair without a standing bond has kn = kt = k_bend = k_twist = 0.
 template <typename Real>
@@ -22,6 +31,25 @@ struct LawNumbers {
   Real dt;                 ///< time step, s
   Real half_dt;            ///< dt/2
   Real half_damping_dt;    ///< ζ dt/2
+};
+
+/// What a pair remembers between steps.
+template <typename Real>
+struct PairMemory {
+  Triple<Real> bond_slip;     ///< δt since the start, of the bond (and of the contact, with one spring), m
+  Triple<Real> contact_slip;  ///< δt since touch, of the contact, m
+  Triple<Real> turn;          ///< rotation of i against j since the start, of the bond, rad
+  Real closing;               ///< speed that damping opposed in the last step, m/s
+};
+using PairHistory = PairMemory<double>;
+
+/// What a pair does in one step.
+template <typename Real>
+struct PairAction {
+  Triple<Real> force;    ///< on bead i; minus this on bead j
+  Triple<Real> couple;   ///< n × F^t; the torque on either bead is minus its arm times this
+  Triple<Real> moment;   ///< of bending on bead i; minus this on bead j
+  Real damped, slipped;  ///< energy lost in the step, J
 };
 
 /// What the law of a specimen is made of.

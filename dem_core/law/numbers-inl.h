@@ -11,6 +11,7 @@
 
 #include <cmath>
 
+#include "dem_core/law/law_parameters.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -110,12 +111,6 @@ HWY_INLINE bool any(LaneMask a) {
 HWY_INLINE Lanes same(double value, Lanes /*like*/) {
   return {hn::Set(Lanes::Tag(), value)};
 }
-
-/// A vector in space whose components are numbers of either kind.
-template <typename Real>
-struct Triple {
-  Real x, y, z;
-};
 
 template <typename Real>
 HWY_INLINE Triple<Real> operator+(const Triple<Real>& a, const Triple<Real>& b) {

@@ -34,24 +34,6 @@ struct PairApproach {
   Real twist;            ///< mean rotation of both beads about n in the step, rad
 };
 
-/// What a pair remembers between steps.
-template <typename Real>
-struct PairMemory {
-  Triple<Real> bond_slip;     ///< δt since the start, of the bond (and of the contact, with one spring), m
-  Triple<Real> contact_slip;  ///< δt since touch, of the contact, m
-  Triple<Real> turn;          ///< rotation of i against j since the start, of the bond, rad
-  Real closing;               ///< speed that damping opposed in the last step, m/s
-};
-
-/// What a pair does in one step.
-template <typename Real>
-struct PairAction {
-  Triple<Real> force;    ///< on bead i; minus this on bead j
-  Triple<Real> couple;   ///< n × F^t; the torque on either bead is minus its arm times this
-  Triple<Real> moment;   ///< of bending on bead i; minus this on bead j
-  Real damped, slipped;  ///< energy lost in the step, J
-};
-
 /// What of two beads' motion the law is about.
 ///
 /// The arms end in mid-gap, not on the surfaces as in the paper's eq. 2: only then does a pair that turns as

@@ -123,7 +123,7 @@ JointState state_at(const Joint& joint, const Closure& closure, const SpringNetw
     state.slides =
         (closure.closed || law.bond_friction_limit) && at_limit(k * bond_slip.norm(), state.normal);
   } else {
-    const double glass = HWY_NAMESPACE::contact_force(gap, joint.law.touch, law.k_glass);
+    const double glass = contact_force(gap, joint.law.touch, law.k_glass);
     state.slides = (closure.closed && at_limit(law.kt_glass * contact_slip.norm(), glass)) ||
                    (law.bond_friction_limit && at_limit(joint.law.kt * bond_slip.norm(), state.normal));
   }

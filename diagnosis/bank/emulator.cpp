@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "base/median.h"
+#include "base/quantile.h"
 #include "diagnosis/bank/mean_row.h"
 
 namespace pendular::diagnosis {

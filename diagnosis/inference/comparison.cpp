@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/median.h"
+#include "base/quantile.h"
 #include "base/random.h"
 #include "diagnosis/bank/law_readings.h"
 #include "diagnosis/bank/mean_row.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/median.h"
+#include "base/quantile.h"
 #include "base/random.h"
 
 namespace pendular::diagnosis {
@@ -28,9 +28,7 @@ double threshold_of(const Eigen::MatrixXd& covariance) {
       noise[k] = random_normal(draw, static_cast<std::uint64_t>(k));
     largest.push_back((factor * noise).cwiseQuotient(sigma).cwiseAbs().maxCoeff());
   }
-  const auto at = largest.begin() + static_cast<std::ptrdiff_t>(0.95 * kDraws);
-  std::nth_element(largest.begin(), at, largest.end());
-  return *at;
+  return ordered_value(std::move(largest), static_cast<std::size_t>(0.95 * kDraws));
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/distributions.h"
 #include "base/quantity.h"
-#include "base/random.h"
 #include "diagnosis/inference/reduced_space.h"
 #include "diagnosis/words.h"
 #include "effects/list.h"
@@ -16,7 +16,6 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr int kReplicas = 4000;
 constexpr double kWithPairs = 10.0;  // an effect may have so many times more in pairs and still be excluded
 
 Eigen::MatrixXd whole_covariance(const Gap& gap) {
@@ -47,22 +46,12 @@ std::string worst_of(const Comparison& landmarks, const Eigen::VectorXd& left) {
   return fmt::format("{} is {:.1f} sigma off", in_words(feature), most);
 }
 
-/// p-value of a χ² under noise alone: the multivariate t, by Monte Carlo.
+/// p-value of a χ² under noise alone, whose covariance is known with `dof` degrees of freedom (0: exactly):
+/// the residual is multivariate t, its square over the number of features Fisher's F.
 double p_value_of(double chi_squared, Eigen::Index features, double dof) {
-  int larger = 0;
-  for (std::uint64_t replica = 0; replica < kReplicas; ++replica) {
-    double square = 0.0;
-    for (Eigen::Index k = 0; k < features; ++k)
-      square += std::pow(random_normal(replica, static_cast<std::uint64_t>(k)), 2);
-    // χ² of many degrees of freedom, by Wilson and Hilferty.
-    double scale = 1.0;
-    if (dof > 0.0) {
-      const double nu = dof, v = 2.0 / (9.0 * nu);
-      scale = std::max(1e-3, std::pow(1.0 - v + std::sqrt(v) * random_normal(replica, 1u << 20), 3));
-    }
-    larger += square / scale >= chi_squared;
-  }
-  return static_cast<double>(larger) / kReplicas;
+  const auto p = static_cast<double>(features);
+  if (features == 0) return 1.0;
+  return dof > 0.0 ? f_tail(chi_squared / p, p, dof) : chi_squared_tail(chi_squared, p);
 }
 
 /// The single effect of least χ²: none where the gap is within the noise.

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/line_fit.h"
-#include "base/median.h"
+#include "base/quantile.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
 #include "effects/list.h"

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "base/error.h"
-#include "base/median.h"
+#include "base/quantile.h"
 #include "base/random.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"

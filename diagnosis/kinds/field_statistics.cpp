@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/quantile.h"
 #include "base/random.h"
 #include "packing/bridges.h"
 
@@ -22,14 +23,6 @@ constexpr double kSteep = 0.7, kFlat = 0.35;  // cosine of a pair's direction to
 constexpr double kPartScale = 0.2;            // µm, of how far pairs part
 constexpr double kQuantiles[] = {0.5, 0.9, 0.98};
 constexpr double kPairQuantiles[] = {0.02, 0.1, 0.5, 0.9, 0.98};
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 /// Logarithm of a root mean square whose noise has this variance.
 double log_size(double mean_square, double noise) {
@@ -138,8 +131,9 @@ void FieldStatistics::find_parts() {
     heights.push_back(bead.centre.z());
     radii.push_back(std::hypot(bead.centre.x() - middle.x(), bead.centre.y() - middle.y()));
   }
-  const double low = quantile(heights, 1.0 / 3.0), high = quantile(heights, 2.0 / 3.0),
-               rim = quantile(radii, 0.5), bottom = quantile(heights, 0.0), top = quantile(heights, 1.0);
+  const double low = lower_quantile(heights, 1.0 / 3.0), high = lower_quantile(heights, 2.0 / 3.0),
+               rim = lower_quantile(radii, 0.5), bottom = lower_quantile(heights, 0.0),
+               top = lower_quantile(heights, 1.0);
   parts_ = {{"low", {}}, {"middle", {}}, {"high", {}}, {"rim", {}}, {"ends", {}}};
   for (std::size_t k = 0; k < beads.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(3 * k);
@@ -168,7 +162,7 @@ Eigen::VectorXd FieldStatistics::operator()(const Eigen::VectorXd& field) const 
   std::vector<double> sizes;
   for (Eigen::Index row = 0; row < left.size(); row += 3) sizes.push_back(left.segment<3>(row).norm());
   for (double share : kQuantiles)
-    values.push_back(0.5 * std::log(std::pow(quantile(sizes, share), 2) + kFloor * noise + 1e-12));
+    values.push_back(0.5 * std::log(std::pow(lower_quantile(sizes, share), 2) + kFloor * noise + 1e-12));
   for (const auto& [name, rows] : parts_) values.push_back(log_size(mean_square(left, rows), 3.0 * noise));
 
   std::vector<double> parting;
@@ -190,7 +184,8 @@ Eigen::VectorXd FieldStatistics::operator()(const Eigen::VectorXd& field) const 
   const double pairs = std::max<double>(1.0, static_cast<double>(pairs_.size()));
   values.push_back(log_size(along / pairs, 2.0 * noise));
   values.push_back(log_size(across / pairs, 4.0 * noise));
-  for (double share : kPairQuantiles) values.push_back(std::asinh(quantile(parting, share) / kPartScale));
+  for (double share : kPairQuantiles)
+    values.push_back(std::asinh(lower_quantile(parting, share) / kPartScale));
   for (const std::size_t opens : {0, 1}) {
     values.push_back(square[opens] > 0.0 ? product[opens] / square[opens] : 0.0);
     values.push_back(log_size(kept[opens] / std::max(1.0, count[opens]), 2.0 * noise));

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/line_fit.h"
+#include "base/quantile.h"
 #include "base/random.h"
 
 namespace pendular::diagnosis {
@@ -159,15 +160,13 @@ void check_sigma(const Observation& observation, const std::string& column, doub
 }
 
 void check_length(const Observation& observation, const std::string& column, double least, double most) {
-  std::vector<double> sorted = observation.column(column);
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  if (*middle >= least && *middle <= most) return;
-  const char* unit = *middle * 1e3 >= least && *middle * 1e3 <= most   ? " (is it in mm?)"
-                     : *middle * 1e6 >= least && *middle * 1e6 <= most ? " (is it in m?)"
-                                                                       : "";
+  const double middle = median(observation.column(column));
+  if (middle >= least && middle <= most) return;
+  const char* unit = middle * 1e3 >= least && middle * 1e3 <= most   ? " (is it in mm?)"
+                     : middle * 1e6 >= least && middle * 1e6 <= most ? " (is it in m?)"
+                                                                     : "";
   bad_input("{}: {}: found a median of {:.4g} um, expected {:.3g} to {:.3g} um for these beads{}",
-            observation.file.string(), column, *middle, least, most, unit);
+            observation.file.string(), column, middle, least, most, unit);
 }
 
 void check_modulus(const Observation& observation, const std::string& column, double modulus,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/distributions.h"
 #include "base/random.h"
 #include "diagnosis/experiment/specimens.h"
 #include "diagnosis/words.h"
@@ -24,12 +25,6 @@ Indices all_features(const Comparison& landmarks) {
   Indices all(landmarks.observed.features.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
   return all;
-}
-
-/// 95 % quantile of χ² with so many degrees of freedom (Wilson & Hilferty 1931).
-double largest_of_noise(double features) {
-  const double v = 2.0 / (9.0 * features);
-  return features * std::pow(1.0 - v + 1.645 * std::sqrt(v), 3);
 }
 
 /// √max(0, d²/p − noise): `noise` is what noise alone makes of d²/p.
@@ -52,13 +47,13 @@ struct Model {
 };
 
 /// Only the polymer's modulus, by generalised least squares on its logarithm, unbounded.
-Changes retuned_modulus(const RepairShop& shop, const Indices& features) {
-  const Comparison& landmarks = shop.problem.landmarks;
+Changes retuned_modulus(const RepairInputs& inputs, const Indices& features) {
+  const Comparison& landmarks = inputs.problem.landmarks;
   const auto found = std::find(landmarks.inputs.begin(), landmarks.inputs.end(), kModulus);
   if (found == landmarks.inputs.end()) return {};
   const auto column = static_cast<Eigen::Index>(found - landmarks.inputs.begin());
   const double relative =
-      floating_inputs(shop.experiment).at(kModulus) / sample_key(shop.experiment.sample, kModulus);
+      floating_inputs(inputs.experiment).at(kModulus) / sample_key(inputs.experiment.sample, kModulus);
   Gap gap = part_of(landmarks.gap, features);
   const Eigen::VectorXd response = gap.believed.col(column) / relative;  // of a change of log E_p by one
   gap.believed.col(column).setZero();
@@ -71,13 +66,13 @@ Changes retuned_modulus(const RepairShop& shop, const Indices& features) {
 
 /// Which tests to withhold together: the features of each condition, or of each observation where there is
 /// one condition only; what no test shows is never withheld.
-std::vector<Indices> withheld_parts(const RepairShop& shop) {
-  const Comparison& landmarks = shop.problem.landmarks;
+std::vector<Indices> withheld_parts(const RepairInputs& inputs) {
+  const Comparison& landmarks = inputs.problem.landmarks;
   std::set<std::size_t> tested;
-  for (const auto& condition : shop.plan.conditions)
+  for (const auto& condition : inputs.plan.conditions)
     tested.insert(condition.observations.begin(), condition.observations.end());
   std::vector<std::set<std::size_t>> groups;
-  for (const auto& condition : shop.plan.conditions)
+  for (const auto& condition : inputs.plan.conditions)
     groups.emplace_back(condition.observations.begin(), condition.observations.end());
   std::sort(groups.begin(), groups.end());
   groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
@@ -98,7 +93,7 @@ std::vector<Indices> withheld_parts(const RepairShop& shop) {
 /// Runs models on fresh members and compares.
 class Bench {
  public:
-  Bench(const RepairShop& shop, Diagnosis& diagnosis) : shop_(shop), diagnosis_(diagnosis) {}
+  Bench(const RepairInputs& inputs, Diagnosis& diagnosis) : inputs_(inputs), diagnosis_(diagnosis) {}
 
   /// The gap that stays of some features with these changes: mean over the fresh members; the old one where
   /// nothing is shown. In the place of the others stands what it was.
@@ -108,23 +103,23 @@ class Bench {
     std::vector<sweep::RunRequest> requests;
     for (const int member : kFresh)
       for (const std::size_t c : needed)
-        requests.push_back(request_of(shop_.experiment, shop_.plan.conditions[c], member,
-                                      static_cast<std::uint64_t>(member), changes, shop_.beads_folder));
-    const auto outcomes = shop_.make_runs(name, requests);
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(shop_.problem.landmarks.gap.values.size()), count = sum;
+        requests.push_back(request_of(inputs_.experiment, inputs_.plan.conditions[c], member,
+                                      static_cast<std::uint64_t>(member), changes, inputs_.beads_folder));
+    const auto outcomes = inputs_.make_runs(name, requests);
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(inputs_.problem.landmarks.gap.values.size()), count = sum;
     auto outcome = outcomes.begin();
     for (std::size_t m = 0; m < std::size(kFresh); ++m) {
-      SimulatedTests tests(shop_.plan.conditions.size());
+      SimulatedTests tests(inputs_.plan.conditions.size());
       for (const std::size_t c : needed)
         tests[c] = read_outcome(*outcome++, c, name + ": ", changes, diagnosis_.ledger);
-      const Eigen::VectorXd values = simulated_features(shop_.experiment, shop_.plan.conditions,
-                                                        shop_.problem.landmarks.observed, tests, changes);
+      const Eigen::VectorXd values = simulated_features(inputs_.experiment, inputs_.plan.conditions,
+                                                        inputs_.problem.landmarks.observed, tests, changes);
       for (Eigen::Index f = 0; f < values.size(); ++f)
         if (std::isfinite(values[f])) sum[f] += values[f], count[f] += 1.0;
       if (overlay) add_overlays(tests, changes);
     }
-    Eigen::VectorXd gap = shop_.problem.landmarks.gap.values;
-    const Eigen::VectorXd observed = shop_.problem.landmarks.observed.values();
+    Eigen::VectorXd gap = inputs_.problem.landmarks.gap.values;
+    const Eigen::VectorXd observed = inputs_.problem.landmarks.observed.values();
     for (Eigen::Index f = 0; f < gap.size(); ++f)
       if (count[f] > 0.0) gap[f] = observed[f] - sum[f] / count[f];
     return gap;
@@ -133,10 +128,10 @@ class Bench {
   /// The withheld features of all parts, each as the model that has not seen its part leaves it.
   Eigen::VectorXd withheld_gap(const Model& model, const std::vector<Indices>& parts,
                                const Indices& withheld) {
-    Eigen::VectorXd gap = shop_.problem.landmarks.gap.values;
+    Eigen::VectorXd gap = inputs_.problem.landmarks.gap.values;
     for (const auto& part : parts) {
       Indices others;
-      for (const std::size_t f : all_features(shop_.problem.landmarks))
+      for (const std::size_t f : all_features(inputs_.problem.landmarks))
         if (std::find(part.begin(), part.end(), f) == part.end()) others.push_back(f);
       const Eigen::VectorXd left = gap_with(model.fit(others), model.name + " on withheld data", part, false);
       for (const std::size_t f : part) gap[static_cast<Eigen::Index>(f)] = left[static_cast<Eigen::Index>(f)];
@@ -148,11 +143,11 @@ class Bench {
   /// Tests that features are read from, those of single bridges aside.
   std::vector<std::size_t> conditions_for(const Indices& features) const {
     std::vector<std::size_t> needed;
-    for (std::size_t c = 0; c < shop_.plan.conditions.size(); ++c) {
-      const auto& answers = shop_.plan.conditions[c].observations;
+    for (std::size_t c = 0; c < inputs_.plan.conditions.size(); ++c) {
+      const auto& answers = inputs_.plan.conditions[c].observations;
       if (std::any_of(features.begin(), features.end(), [&](std::size_t f) {
             return std::find(answers.begin(), answers.end(),
-                             shop_.problem.landmarks.observed.observation[f]) != answers.end();
+                             inputs_.problem.landmarks.observed.observation[f]) != answers.end();
           }))
         needed.push_back(c);
     }
@@ -161,11 +156,12 @@ class Bench {
 
   void add_overlays(const SimulatedTests& tests, const Changes& changes) {
     for (std::size_t index = 0; index < diagnosis_.overlays.size(); ++index)
-      if (auto columns = simulated_columns(shop_.experiment, shop_.plan.conditions, index, tests, changes))
+      if (auto columns =
+              simulated_columns(inputs_.experiment, inputs_.plan.conditions, index, tests, changes))
         diagnosis_.overlays[index].repaired.push_back(std::move(*columns));
   }
 
-  const RepairShop& shop_;
+  const RepairInputs& inputs_;
   Diagnosis& diagnosis_;
 };
 
@@ -192,20 +188,20 @@ struct Compared {
   Indices features;
 };
 
-Compared compared_features(const RepairShop& shop) {
-  Compared compared{withheld_parts(shop), {}};
+Compared compared_features(const RepairInputs& inputs) {
+  Compared compared{withheld_parts(inputs), {}};
   for (const auto& part : compared.parts)
     compared.features.insert(compared.features.end(), part.begin(), part.end());
-  if (compared.parts.empty()) compared.features = all_features(shop.problem.landmarks);
+  if (compared.parts.empty()) compared.features = all_features(inputs.problem.landmarks);
   return compared;
 }
 
 /// `left`: of the gap in the features that are compared.
-Shrinkage shrinkage_on(const RepairShop& shop, const Compared& compared, const Eigen::VectorXd& left) {
-  const Comparison& landmarks = shop.problem.landmarks;
+Shrinkage shrinkage_on(const RepairInputs& inputs, const Compared& compared, const Eigen::VectorXd& left) {
+  const Comparison& landmarks = inputs.problem.landmarks;
   Shrinkage found = shrinkage_of(part_of(landmarks.gap, compared.features), left);
   for (const std::size_t index : observations_of(landmarks, compared.features))
-    found.observations.push_back(shop.experiment.observations[index].name);
+    found.observations.push_back(inputs.experiment.observations[index].name);
   return found;
 }
 
@@ -228,7 +224,7 @@ Shrinkage shrinkage_of(const Gap& before, const Eigen::VectorXd& after) {
   found.before = excess_of(factor, before.values, 1.0);
   found.after = excess_of(factor, after, 1.0);
   found.nothing_to_close = before.values.dot(factor.solve(before.values)) <=
-                           largest_of_noise(static_cast<double>(before.values.size()));
+                           chi_squared_quantile(0.95, static_cast<double>(before.values.size()));
   if (found.nothing_to_close) return found;
   const auto fraction = [](double was, double is) { return was > 0.0 ? 1.0 - is / was : 0.0; };
   found.fraction = fraction(found.before, found.after);
@@ -247,15 +243,15 @@ Shrinkage shrinkage_of(const Gap& before, const Eigen::VectorXd& after) {
   return found;
 }
 
-Shrinkage shrinkage_by(const RepairShop& shop, const Changes& changes, Diagnosis& diagnosis) {
-  const Compared compared = compared_features(shop);
+Shrinkage shrinkage_by(const RepairInputs& inputs, const Changes& changes, Diagnosis& diagnosis) {
+  const Compared compared = compared_features(inputs);
   const Eigen::VectorXd left =
-      Bench(shop, diagnosis).gap_with(changes, "true effect", compared.features, false);
-  return shrinkage_on(shop, compared, left(positions(compared.features)));
+      Bench(inputs, diagnosis).gap_with(changes, "true effect", compared.features, false);
+  return shrinkage_on(inputs, compared, left(positions(compared.features)));
 }
 
-void measure_shrinkage(const RepairShop& shop, Diagnosis& diagnosis) {
-  const Problem& problem = shop.problem;
+void measure_shrinkage(const RepairInputs& inputs, Diagnosis& diagnosis) {
+  const Problem& problem = inputs.problem;
   const Comparison& landmarks = problem.landmarks;
   const double excess_before = excess(landmarks.gap);
   diagnosis.fitted = {excess_before, excess_before, 0.0, {0.0, 0.0}, {}};
@@ -263,7 +259,7 @@ void measure_shrinkage(const RepairShop& shop, Diagnosis& diagnosis) {
   const auto ids = effects_in(diagnosis.explanations.front().id);
   if (ids.empty() || excess_before <= 0.0) return;
 
-  Bench bench(shop, diagnosis);
+  Bench bench(inputs, diagnosis);
   const Indices all = all_features(landmarks);
   const auto effect_model = [&](const std::string& name, const std::vector<std::string>& effects) {
     return Model{name, [&problem, &landmarks, effects](const Indices& features) {
@@ -271,19 +267,19 @@ void measure_shrinkage(const RepairShop& shop, Diagnosis& diagnosis) {
                  }};
   };
   const Model best = effect_model("repaired", ids);
-  const Compared compared = compared_features(shop);
+  const Compared compared = compared_features(inputs);
   const Eigen::VectorXd left = bench.gap_with(best.fit(all), best.name, all, true);
-  diagnosis.fitted = shrinkage_on(shop, compared, left(positions(compared.features)));
+  diagnosis.fitted = shrinkage_on(inputs, compared, left(positions(compared.features)));
   if (compared.parts.empty()) return;
   const auto withheld = [&](const Model& model) {
-    return shrinkage_on(shop, compared, bench.withheld_gap(model, compared.parts, compared.features));
+    return shrinkage_on(inputs, compared, bench.withheld_gap(model, compared.parts, compared.features));
   };
   diagnosis.withheld = withheld(best);
   if (diagnosis.withheld.nothing_to_close) return;
   warn_of_contradiction(diagnosis);
-  diagnosis.retuned =
-      withheld({"modulus retuned", [&](const Indices& features) { return retuned_modulus(shop, features); }})
-          .fraction;
+  diagnosis.retuned = withheld({"modulus retuned",
+                                [&](const Indices& features) { return retuned_modulus(inputs, features); }})
+                          .fraction;
   diagnosis.wrong_effect = wrong_effect_of(diagnosis);
   if (!diagnosis.wrong_effect.empty())
     diagnosis.wrong = withheld(effect_model("wrong effect", {diagnosis.wrong_effect})).fraction;

@@ -6,7 +6,7 @@
 namespace pendular::diagnosis {
 
 /// What fresh runs need to know.
-struct RepairShop {
+struct RepairInputs {
   const Experiment& experiment;
   const BankPlan& plan;
   const Problem& problem;
@@ -21,10 +21,10 @@ struct RepairShop {
 /// observations; of all where there is one observation. `fitted`: with the magnitude that all observations
 /// give. `withheld`: with the magnitude that the others give. Fills shrinkage, controls, overlays, warnings
 /// and ledger. Nothing is run where the explanation is `none` or `unknown`: the gap stays as it is.
-void measure_shrinkage(const RepairShop& shop, Diagnosis& diagnosis);
+void measure_shrinkage(const RepairInputs& inputs, Diagnosis& diagnosis);
 
 /// What changes that are known to be true close on the same features. Books its runs in the ledger.
-Shrinkage shrinkage_by(const RepairShop& shop, const Changes& changes, Diagnosis& diagnosis);
+Shrinkage shrinkage_by(const RepairInputs& inputs, const Changes& changes, Diagnosis& diagnosis);
 
 /// Fraction of a gap that is gone, with the interval that the features' noise leaves (seeded draws). There is
 /// nothing to close where noise alone leaves a gap as large with a probability of 5 % and more: a fraction of

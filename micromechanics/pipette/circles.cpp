@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "base/median.h"
+#include "base/quantile.h"
 #include "pipette/spline.h"
 
 namespace pendular::pipette {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/distributions.h"
 #include "base/error.h"
 
 namespace pendular::pipette {
@@ -51,7 +52,7 @@ Stiffness with_uncertainty(const LineFit& line, const Calibration& c) {
   const double fit_share = std::pow(k.fit_sigma / total, 4) / static_cast<double>(line.points - 2);
   const double calibration_share =
       std::pow(k.calibration_sigma / total, 4) * 2.0 * c.sigma_reliability * c.sigma_reliability;
-  const double half = total * student_95(1.0 / (fit_share + calibration_share));
+  const double half = total * student_quantile(0.95, 1.0 / (fit_share + calibration_share));
   k.low = k.value - half;
   k.high = k.value + half;
   return k;

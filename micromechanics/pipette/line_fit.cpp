@@ -6,6 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "base/distributions.h"
+#include "base/quantile.h"
+
 namespace pendular::pipette {
 namespace {
 
@@ -21,9 +24,8 @@ double adjusted_x(double x, double residual, double slope, const Covariance& c) 
 /// Standard deviation of second differences' noise per point, from the median of their absolute values.
 double robust_sd(std::vector<double> second_differences) {
   for (double& d : second_differences) d = std::abs(d);
-  const auto middle = second_differences.begin() + static_cast<std::ptrdiff_t>(second_differences.size() / 2);
-  std::nth_element(second_differences.begin(), middle, second_differences.end());
-  return 1.4826 * *middle / std::sqrt(6.0);  // 1 + 4 + 1 variances in a second difference
+  return 1.4826 * median(std::move(second_differences)) /
+         std::sqrt(6.0);  // 1 + 4 + 1 variances in a second difference
 }
 
 }  // namespace
@@ -106,9 +108,7 @@ bool is_curved(std::span<const double> x, std::span<const double> y, const LineF
     return (residual - fitted).squaredNorm();
   };
   const double straight = squares(2), bent = squares(4), dof = static_cast<double>(n - 4);
-  // The F distribution with two numerator degrees of freedom has a closed form.
-  const double limit = 0.5 * dof * (std::pow(significance, -2.0 / dof) - 1.0);
-  return 0.5 * (straight - bent) > limit * bent / dof;
+  return 0.5 * (straight - bent) > f_quantile(1.0 - significance, 2.0, dof) * bent / dof;
 }
 
 std::optional<LinearRange> find_linear_range(std::span<const double> x, std::span<const double> y,
@@ -121,12 +121,6 @@ std::optional<LinearRange> find_linear_range(std::span<const double> x, std::spa
     return LinearRange{*line, n};
   }
   return std::nullopt;
-}
-
-double student_95(double v) {
-  const double z = 1.6448536269514722, z2 = z * z;
-  return z + z * (z2 + 1.0) / (4.0 * v) + z * ((5.0 * z2 + 16.0) * z2 + 3.0) / (96.0 * v * v) +
-         z * (((3.0 * z2 + 19.0) * z2 + 17.0) * z2 - 15.0) / (384.0 * v * v * v);
 }
 
 }  // namespace pendular::pipette

@@ -45,7 +45,4 @@ std::optional<LinearRange> find_linear_range(std::span<const double> x, std::spa
                                              const Covariance& errors, std::size_t least,
                                              double significance = 0.01);
 
-/// 0.95 quantile of Student's t (Abramowitz & Stegun 26.7.5; within 0.002 from five degrees of freedom on).
-double student_95(double degrees_of_freedom);
-
 }  // namespace pendular::pipette

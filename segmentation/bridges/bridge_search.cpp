@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/batches.h"
+#include "base/quantile.h"
 #include "segmentation/bridges/neck_injection.h"
 
 namespace pendular {
@@ -83,9 +84,7 @@ double scatter_of(const std::vector<std::optional<NeckEvidence>>& evidence) {
     if (one && one->d[typical] > 0.0)
       sizes.push_back(std::fabs(one->n[typical]) / std::sqrt(one->d[typical]));
   if (sizes.size() < 20) return 1.0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle / 0.6745;
+  return median(std::move(sizes)) / 0.6745;
 }
 
 ImageKnowledge knowledge_of(const FittedBeads& fitted) {

@@ -1,5 +1,7 @@
 #include "segmentation/bridges/neck_statistics.h"
 
+#include "segmentation/thresholds.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,7 +10,6 @@ namespace pendular {
 namespace {
 
 constexpr std::size_t kFiner = 5;  // points per tried share
-constexpr double kLeastGain = 10.0, kLeastSigmas = 4.0;
 constexpr double kLeastSd = 0.02;  // of radii, voxels
 constexpr int kRounds = 4, kSteps = 60;
 
@@ -140,7 +141,8 @@ std::optional<NeckPopulation> neck_population(std::span<const NeckEvidence> crev
       (2.0 * p.gain - gain_of(all, p, p.contrast + step) - gain_of(all, p, p.contrast - step)) /
       (step * step);
   p.sigma_contrast = curvature > 0.0 ? 1.0 / std::sqrt(curvature) : HUGE_VAL;
-  if (p.gain < kLeastGain || p.contrast < kLeastSigmas * p.sigma_contrast) return std::nullopt;
+  if (p.gain < kThresholds.neck_gain || p.contrast < kThresholds.neck_sigmas * p.sigma_contrast)
+    return std::nullopt;
   return p;
 }
 

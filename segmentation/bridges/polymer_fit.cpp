@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/median.h"
+#include "base/quantile.h"
 #include "segmentation/bridges/bridge_search.h"
 #include "segmentation/bridges/crevice.h"
 #include "segmentation/fit/ball_profile.h"
 #include "segmentation/fit/level_field.h"
+#include "segmentation/thresholds.h"
 
 namespace pendular {
 namespace {
@@ -125,15 +126,14 @@ void show_balls(const FittedBeads& fitted, const std::vector<IndexPair>& open, d
 
 void fit_with_polymer(const Volume& volume, const std::optional<Container>& container, double cutoff,
                       FittedBeads& fitted) {
-  constexpr double worth_while = 0.015, least_contrast = 0.03;
-  if (typical_error(fitted) < worth_while) return;
+  if (typical_error(fitted) < kThresholds.polymer_error) return;
   auto balls = balls_of(fitted.fits);
   set_level_slopes(balls);
   FitSetting setting = fine_setting(fitted.fits, fitted.blur);
   setting.rings = fitted.rings.get();
   auto pairs = near_pairs(balls, 2.0 * cutoff * median_radius(fitted.fits) + 0.5);
   const BridgeSummary polymer = measure_bridges(volume, fitted, container, {}, pairs);
-  const bool none = polymer.contrast + 2.0 * polymer.sigma_contrast < least_contrast;
+  const bool none = polymer.contrast + 2.0 * polymer.sigma_contrast < kThresholds.polymer_contrast;
   if (!none && !polymer.polymer_seen) return;
 
   std::vector<BallPair> shown;

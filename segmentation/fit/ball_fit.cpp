@@ -5,9 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "base/median.h"
+#include "base/quantile.h"
 #include "segmentation/fit/ball_profile.h"
 #include "segmentation/fit/rings.h"
+#include "segmentation/thresholds.h"
 
 namespace pendular {
 namespace {
@@ -240,7 +241,7 @@ std::size_t patch_of(const Vec3& p) {
 /// Drops the voxels of patches in which the mean of what is left, within the ball or around it, is further
 /// from zero than means of patches are: something that is not known is there. Whether there were any.
 bool drop_foreign(std::vector<ShellVoxel>& voxels, const GreyBall& start, const Parameters& q) {
-  constexpr double far = 4.5, to_sd = 1.4826;
+  constexpr double to_sd = 1.4826;
   std::array<double, 2 * patches> sum{}, count{};
   const auto cell_of = [&](const ShellVoxel& voxel) {
     const Vec3 p(voxel.x - q[0], voxel.y - q[1], voxel.z - q[2]);
@@ -254,7 +255,7 @@ bool drop_foreign(std::vector<ShellVoxel>& voxels, const GreyBall& start, const 
   std::vector<double> scores;
   for (std::size_t cell = 0; cell < sum.size(); ++cell)
     if (count[cell] > 0.0) scores.push_back(std::abs(sum[cell]) / std::sqrt(count[cell]));
-  const double most = far * to_sd * median(scores);
+  const double most = kThresholds.foreign_patch * to_sd * median(scores);
   std::array<bool, patches> foreign{};
   for (std::size_t cell = 0; cell < sum.size(); ++cell)
     if (count[cell] > 0.0 && std::abs(sum[cell]) / std::sqrt(count[cell]) > most) foreign[cell / 2] = true;
@@ -286,7 +287,7 @@ BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::siz
   }
   const auto& [q, now, converged] = solution;
   fit.converged = converged;
-  fit.borne_out = static_cast<double>(shell.samples.size()) / all;
+  fit.explained_share = static_cast<double>(shell.samples.size()) / all;
   const double n = static_cast<double>(shell.samples.size());
   const double variance = now.squares / (n - 6.0);
   const Normal inverse = now.matrix.ldlt().solve(Normal::Identity());

@@ -25,10 +25,10 @@ struct BallFit {
   GreyBall ball;
   double blur = 0.0;  ///< standard deviation of the point spread, voxels
   double sigma_centre = 0.0,
-         sigma_radius = 0.0;  ///< standard errors (of the centre: root mean square over the axes), voxels
-  double residual = 0.0;      ///< root mean square over the voxels used, grey values
-  double free_share = 0.0;    ///< share of the shell that is neither hidden nor outside the volume
-  double borne_out = 1.0;     ///< share of that which was not dropped as foreign
+         sigma_radius = 0.0;     ///< standard errors (of the centre: root mean square over the axes), voxels
+  double residual = 0.0;         ///< root mean square over the voxels used, grey values
+  double free_share = 0.0;       ///< share of the shell that is neither hidden nor outside the volume
+  double explained_share = 1.0;  ///< share of that which was not dropped as foreign
   bool converged = false;
 };
 

@@ -5,16 +5,12 @@
 #include <numeric>
 
 #include "base/batches.h"
-#include "base/median.h"
+#include "base/quantile.h"
 #include "segmentation/fit/level_field.h"
+#include "segmentation/thresholds.h"
 
 namespace pendular {
 namespace {
-
-constexpr double least_contrast = 0.4;    // of the classes' difference
-constexpr double most_misfit = 0.15;      // of the contrast, beside the noise
-constexpr double least_borne_out = 0.4;   // of what is seen of a ball's shell
-constexpr double least_separation = 0.7;  // of two balls, over the sum of their radii
 
 constexpr double cone_share = 0.53;  // of the typical radius, as long as the blur is not known: 32°
 
@@ -49,10 +45,11 @@ bool outside(const Volume& volume, const Vec3& p) {
 /// Drops fits that are no bead; of two that overlap, the one that fits worse.
 void reject(std::vector<BallFit>& fits, const Volume& volume, const BeadSearch& search) {
   const double needed =
-      least_contrast * (search.levels.bright - search.levels.dark) * (search.bright ? 1.0 : -1.0);
+      kThresholds.least_contrast * (search.levels.bright - search.levels.dark) * (search.bright ? 1.0 : -1.0);
   std::erase_if(fits, [&](const BallFit& fit) {
-    return !fit.converged || fit.borne_out < least_borne_out || fit.ball.contrast / needed < 1.0 ||
-           fit.ball.radius < search.least_radius || outside(volume, fit.ball.centre) ||
+    return !fit.converged || fit.explained_share < kThresholds.least_explained ||
+           fit.ball.contrast / needed < 1.0 || fit.ball.radius < search.least_radius ||
+           outside(volume, fit.ball.centre) ||
            (search.container && !within(*search.container, fit.ball.centre));
   });
   std::vector<bool> dropped(fits.size(), false);
@@ -60,7 +57,7 @@ void reject(std::vector<BallFit>& fits, const Volume& volume, const BeadSearch& 
     const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
     const double separation = (fits[i].ball.centre - fits[j].ball.centre).norm();
     if (dropped[i] || dropped[j] ||
-        separation > least_separation * (fits[i].ball.radius + fits[j].ball.radius))
+        separation > kThresholds.least_separation * (fits[i].ball.radius + fits[j].ball.radius))
       continue;
     dropped[fits[i].residual < fits[j].residual ? j : i] = true;
   }
@@ -71,11 +68,12 @@ void reject(std::vector<BallFit>& fits, const Volume& volume, const BeadSearch& 
 }
 
 /// Drops the few among balls that fit far worse, as broken ones do; grains that are all irregular stay.
-void leave_out_odd(std::vector<BallFit>& fits, double noise) {
-  const auto odd = [noise](const BallFit& fit) {
-    return fit.residual > std::hypot(noise, most_misfit * fit.ball.contrast);
+void drop_outliers(std::vector<BallFit>& fits, double noise) {
+  const auto is_outlier = [noise](const BallFit& fit) {
+    return fit.residual > std::hypot(noise, kThresholds.outlier_misfit * fit.ball.contrast);
   };
-  if (2 * std::count_if(fits.begin(), fits.end(), odd) < std::ssize(fits)) std::erase_if(fits, odd);
+  if (2 * std::count_if(fits.begin(), fits.end(), is_outlier) < std::ssize(fits))
+    std::erase_if(fits, is_outlier);
 }
 
 std::vector<GreyBall> balls_at(const std::vector<Seed>& seeds, const BeadSearch& search) {
@@ -223,7 +221,7 @@ FittedBeads fit_beads(const Volume& volume, const BeadSearch& search, double cut
   if (result.rings) fit_again(rough, "second fits without rings");
   fit_again(last, "last fits");
   result.noise = measure_noise(volume, balls_of(fits), last.half_width, last.rings);
-  leave_out_odd(fits, result.noise.sd);
+  drop_outliers(fits, result.noise.sd);
   result.grains = search_missed(search.mask, seeds_at(fits), search.least_radius);
   result.fits = std::move(fits);
   result.rejected = tried - result.fits.size();

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/median.h"
 #include "base/parallel.h"
+#include "base/quantile.h"
 #include "segmentation/fit/ball_profile.h"
 #include "segmentation/fit/rings.h"
+#include "segmentation/thresholds.h"
 
 namespace pendular {
 namespace {
@@ -88,12 +89,11 @@ Noise measure_noise(const Volume& volume, std::span<const GreyBall> balls, doubl
       sums[n] = core_sums(pixels, volume, balls[n * step], margin, rings);
     });
   });
-  // Pores and cracks are not noise: cores that vary by more than twice the middle one do not count.
-  constexpr double uneven = 2.0;
+  // Pores and cracks are not noise: cores that vary by much more than the middle one do not count.
   std::vector<double> variances;
   for (const LagSums& own : sums)
     if (own.pairs[0] > 0.0) variances.push_back(own.product[0] / own.pairs[0]);
-  const double most = uneven * median(variances);
+  const double most = kThresholds.uneven_core * median(variances);
   LagSums total;
   for (const LagSums& own : sums)
     for (int lag = 0; lag <= most_lag && own.product[0] <= most * own.pairs[0]; ++lag) {

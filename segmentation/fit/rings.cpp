@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "segmentation/thresholds.h"
 
 namespace pendular {
 namespace {
@@ -159,7 +160,7 @@ struct Signal {
 
 /// Both halves of the balls see the same rings, but not the same noise.
 Signal signal_of(std::span<const Sums> all) {
-  constexpr double least_sigmas = 5.0, least_voxels = 4.0;
+  constexpr double least_voxels = 4.0;
   double product = 0.0, weights = 0.0, differences = 0.0, chance = 0.0, count = 0.0;
   for (const Sums& sums : all) {
     const double m = sums.voxels[0], n = sums.voxels[1];
@@ -171,7 +172,7 @@ Signal signal_of(std::span<const Sums> all) {
   }
   if (count == 0.0) return {};
   const double noise = differences / count;
-  return {product / weights, noise, product > least_sigmas * noise * std::sqrt(chance)};
+  return {product / weights, noise, product > kThresholds.ring_sigmas * noise * std::sqrt(chance)};
 }
 
 Rings no_rings(const Volume& volume) {
@@ -227,8 +228,7 @@ std::shared_ptr<const Rings> find_rings(const Volume& volume, std::span<const Gr
     if (shared[n % rings.steps].all_voxels() < least_voxels) grey = std::numeric_limits<float>::quiet_NaN();
   }
   rings.rms = std::sqrt(squares / voxels);
-  constexpr double least_share = 0.14;  // of the noise; fainter ones cost less than what is not known of them
-  if (rings.rms < least_share * std::sqrt(in_each.noise)) return nullptr;
+  if (rings.rms < kThresholds.ring_over_noise * std::sqrt(in_each.noise)) return nullptr;
   return std::make_shared<const Rings>(std::move(rings));
 }
 

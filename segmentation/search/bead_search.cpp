@@ -6,12 +6,11 @@
 #include "base/interrupt.h"
 #include "base/parallel.h"
 #include "segmentation/search/field_of_view.h"
+#include "segmentation/thresholds.h"
 #include "volume/resample.h"
 
 namespace pendular {
 namespace {
-
-constexpr double least_radius_in_nodes = 7.0;  // smaller beads that touch may have run together
 
 Grid<std::uint8_t> mask_of(const Grid<float>& grey, double threshold, bool bright) {
   Grid<std::uint8_t> mask{grey.size, grey.factor, std::vector<std::uint8_t>(grey.values.size())};
@@ -148,7 +147,7 @@ void choose_tone(BeadSearch& search, const Grid<float>& grey, const std::vector<
 
 /// Whether typical beads have enough nodes across.
 bool well_resolved(const BeadSearch& search) {
-  return typical_radius(search.seeds) >= least_radius_in_nodes * search.mask.factor;
+  return typical_radius(search.seeds) >= kThresholds.well_resolved * search.mask.factor;
 }
 
 /// The search on the volume's own voxels at the finest; all bodies.
@@ -193,8 +192,7 @@ BeadSearch halved(BeadSearch search) {
 }  // namespace
 
 bool mostly_spherical(const BeadSearch& search) {
-  constexpr double least = 0.02;
-  return search.sphericity > least;
+  return search.sphericity > kThresholds.least_sphericity;
 }
 
 bool may_refine(const Volume& volume) {
@@ -203,7 +201,6 @@ bool may_refine(const Volume& volume) {
 
 BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<double> least_radius,
                         const BallShare& balls_among) {
-  constexpr double least_share = 0.25;
   BeadSearch search = search_bodies(volume, tone, balls_among);
   if (may_refine(volume) && !(well_resolved(search) && mostly_spherical(search))) {
     BeadSearch finer = search_bodies(resampled(volume, {2.0, 2.0, 2.0}), tone,
@@ -211,7 +208,8 @@ BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<doubl
     finer.histogram = search.histogram;
     if (mostly_spherical(finer)) search = halved(std::move(finer));
   }
-  search.least_radius = least_radius.value_or(least_share * typical_radius(search.seeds));
+  search.least_radius =
+      least_radius.value_or(kThresholds.least_relative_radius * typical_radius(search.seeds));
   std::erase_if(search.seeds, [&](const Seed& seed) { return seed.radius < search.least_radius; });
   return search;
 }

@@ -5,17 +5,12 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/quantile.h"
 #include "segmentation/search/grey_levels.h"
+#include "segmentation/thresholds.h"
 
 namespace pendular {
 namespace {
-
-// Shares of the range of grey values: a spread that only beads make, or, where they are so small that they
-// blur into each other, at least half of that; and a step that only a wall makes.
-constexpr double busy_spread = 0.2, least_busy_spread = 0.1;
-constexpr double least_step = 0.15;
-// A thin wall behind the first layer of beads steps up less; that it does so on a circle tells it from beads.
-constexpr double least_tube_step = 0.05;
 
 struct MeanAndSpread {
   double mean = 0.0, spread = 0.0;
@@ -34,13 +29,8 @@ double range_of(const Grid<float>& grey) {
   const std::size_t step = grey.values.size() / enough + 1;
   std::vector<float> values;
   for (std::size_t n = 0; n < grey.values.size(); n += step) values.push_back(grey.values[n]);
-  const auto quantile = [&](double share) {
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return static_cast<double>(*at);
-  };
-  return values.empty() ? 0.0 : quantile(0.98) - quantile(0.02);
+  return static_cast<double>(lower_quantile(values, 0.98)) -
+         static_cast<double>(lower_quantile(values, 0.02));
 }
 
 /// For each column of nodes, along z: the spread over all slices, where pistons make the columns of beads
@@ -71,8 +61,8 @@ std::vector<MeanAndSpread> columns_of(const Grid<float>& grey) {
 double busy_from(const std::vector<MeanAndSpread>& columns, double edge) {
   std::vector<float> spreads;
   for (const MeanAndSpread& column : columns) spreads.push_back(static_cast<float>(column.spread));
-  return std::clamp(grey_levels(histogram_of(spreads)).threshold, least_busy_spread * edge,
-                    busy_spread * edge);
+  return std::clamp(grey_levels(histogram_of(spreads)).threshold, kThresholds.least_busy_spread * edge,
+                    kThresholds.most_busy_spread * edge);
 }
 
 /// A disc in nodes.
@@ -167,8 +157,7 @@ Disc circle_through(std::vector<Eigen::Vector2d> points) {
     };
     std::vector<double> distances;
     for (const auto& p : points) distances.push_back(off(p));
-    std::nth_element(distances.begin(), distances.begin() + distances.size() / 2, distances.end());
-    const double limit = std::max(0.3, 4.5 * distances[distances.size() / 2]);
+    const double limit = std::max(0.3, 4.5 * median(std::move(distances)));
     std::erase_if(points, [&](const auto& p) { return off(p) > limit; });
     if (points.size() < 12) break;
   }
@@ -191,7 +180,7 @@ std::optional<Disc> tube_of(const Grid<float>& grey, const std::vector<MeanAndSp
       if (std::isnan(mean)) break;
       profile.push_back(mean);
     }
-    if (const auto r = steepest_rise(profile, from, step, least_tube_step * edge))
+    if (const auto r = steepest_rise(profile, from, step, kThresholds.tube_step * edge))
       points.emplace_back(busy.x + *r * c, busy.y + *r * s);
   }
   if (points.size() < 2 * sectors / 3) return std::nullopt;
@@ -235,7 +224,7 @@ std::optional<double> piston_face(const std::vector<MeanAndSpread>& slices, bool
                        to = std::min<std::ptrdiff_t>(n, last_busy + 8);
   std::vector<double> profile;
   for (std::ptrdiff_t k = from; k < to; ++k) profile.push_back(slice(k).mean);
-  const auto face = steepest_rise(profile, static_cast<double>(from), 1.0, least_step * edge);
+  const auto face = steepest_rise(profile, static_cast<double>(from), 1.0, kThresholds.piston_step * edge);
   if (!face) return std::nullopt;
   return upwards ? *face : static_cast<double>(n - 1) - *face;
 }

@@ -100,11 +100,5 @@ TEST(LinearRange, ThereIsNoneWithoutASlope) {
   EXPECT_FALSE(find_linear_range(p.x, p.y, covariance(0.1, 1.0, 0.0), 8));
 }
 
-TEST(Student, QuantilesAreThoseOfTheTables) {
-  EXPECT_NEAR(student_95(8), 1.8595, 1e-3);
-  EXPECT_NEAR(student_95(30), 1.6973, 1e-4);
-  EXPECT_NEAR(student_95(1e9), 1.64485, 1e-4);
-}
-
 }  // namespace
 }  // namespace pendular::pipette

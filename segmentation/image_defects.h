@@ -9,6 +9,6 @@ namespace pendular {
 
 /// What is suspect about a volume, a line each: grey values that look cut off at either end (`histogram`, of
 /// all voxels that count), and slices that hold one value, repeat the one before, or do not follow from it.
-std::vector<std::string> doubts_about(const Volume& volume, const Histogram& histogram);
+std::vector<std::string> image_defects(const Volume& volume, const Histogram& histogram);
 
 }  // namespace pendular

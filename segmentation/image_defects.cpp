@@ -1,4 +1,4 @@
-#include "segmentation/doubts.h"
+#include "segmentation/image_defects.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/median.h"
 #include "base/parallel.h"
+#include "base/quantile.h"
+#include "segmentation/thresholds.h"
 
 namespace pendular {
 namespace {
@@ -58,7 +59,6 @@ std::string named(const std::vector<std::size_t>& slices) {
 /// alike.
 bool breaks(const std::vector<Slice>& slices, std::size_t k) {
   constexpr std::size_t reach = 10, near = 2;
-  constexpr double least_rise = 1.25, over_next = 4.0, alike = 0.3;
   if (k < near + 1 || k + near + 1 > slices.size()) return false;
   std::vector<double> about;
   for (std::size_t n = std::max<std::size_t>(k, reach + 1) - reach; n < std::min(slices.size(), k + reach);
@@ -67,12 +67,13 @@ bool breaks(const std::vector<Slice>& slices, std::size_t k) {
   const double usual = median(about), rise = slices[k].change - usual;
   const double beside = std::max(slices[k - 1].change, slices[k + 1].change) - usual;
   const Slice &before = slices[k - near], &after = slices[k + near];
-  return usual > 0.0 && slices[k].change > least_rise * usual && rise > over_next * beside &&
-         std::abs(after.mean - before.mean) < alike * before.spread &&
-         std::abs(after.spread - before.spread) < alike * before.spread;
+  return usual > 0.0 && slices[k].change > kThresholds.slice_rise * usual &&
+         rise > kThresholds.slice_over_next * beside &&
+         std::abs(after.mean - before.mean) < kThresholds.slice_alike * before.spread &&
+         std::abs(after.spread - before.spread) < kThresholds.slice_alike * before.spread;
 }
 
-void doubt_slices(const Volume& volume, std::vector<std::string>& doubts) {
+void add_slice_defects(const Volume& volume, std::vector<std::string>& defects) {
   std::vector<Slice> slices(volume.size[2]);
   with_pixels(volume, [&](auto pixels) {
     for_blocks(slices.size(), 1,
@@ -87,18 +88,18 @@ void doubt_slices(const Volume& volume, std::vector<std::string>& doubts) {
     else if (breaks(slices, k))
       broken.push_back(k);
   }
-  if (!even.empty()) doubts.push_back(fmt::format("{}, from 0 on: one grey value throughout", named(even)));
+  if (!even.empty()) defects.push_back(fmt::format("{}, from 0 on: one grey value throughout", named(even)));
   if (!repeated.empty())
-    doubts.push_back(fmt::format("{}, from 0 on: the same as the one before", named(repeated)));
+    defects.push_back(fmt::format("{}, from 0 on: the same as the one before", named(repeated)));
   if (!broken.empty())
-    doubts.push_back(fmt::format(
+    defects.push_back(fmt::format(
         "{}, from 0 on: not a continuation of the one before; slices missing, or a moved specimen?",
         named(broken)));
 }
 
 /// Many voxels at the very end of the grey values, and few just within.
-void doubt_end(const Histogram& histogram, bool greatest, std::vector<std::string>& doubts) {
-  constexpr double least_share = 0.002, over_next = 8.0, width = 64.0;
+void add_clipping(const Histogram& histogram, bool greatest, std::vector<std::string>& defects) {
+  constexpr double width = 64.0;
   const auto occupied = [](double count) { return count > 0.0; };
   const auto& counts = histogram.counts;
   const auto low = std::find_if(counts.begin(), counts.end(), occupied) - counts.begin();
@@ -110,8 +111,8 @@ void doubt_end(const Histogram& histogram, bool greatest, std::vector<std::strin
   const double within = std::accumulate(first, first + next, 0.0) / static_cast<double>(next);
   const double count = counts[static_cast<std::size_t>(end)];
   const double share = count / std::accumulate(counts.begin(), counts.end(), 0.0);
-  if (share < least_share || count < over_next * within) return;
-  doubts.push_back(fmt::format(
+  if (share < kThresholds.end_share || count < kThresholds.end_over_next * within) return;
+  defects.push_back(fmt::format(
       "{:.1f} % of the voxels have the {} grey value, {:.6g}: if grey values were cut off there, diameters "
       "are wrong",
       100.0 * share, greatest ? "greatest" : "least", histogram.centre(static_cast<std::size_t>(end))));
@@ -119,12 +120,12 @@ void doubt_end(const Histogram& histogram, bool greatest, std::vector<std::strin
 
 }  // namespace
 
-std::vector<std::string> doubts_about(const Volume& volume, const Histogram& histogram) {
-  std::vector<std::string> doubts;
-  for (const bool greatest : {false, true}) doubt_end(histogram, greatest, doubts);
-  doubt_slices(volume, doubts);
+std::vector<std::string> image_defects(const Volume& volume, const Histogram& histogram) {
+  std::vector<std::string> defects;
+  for (const bool greatest : {false, true}) add_clipping(histogram, greatest, defects);
+  add_slice_defects(volume, defects);
   release(volume);
-  return doubts;
+  return defects;
 }
 
 }  // namespace pendular
