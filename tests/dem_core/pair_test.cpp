@@ -281,7 +281,7 @@ TEST(Pair, SlippingContactLosesWhatIsPutIn) {
     last = force.force.x;
     slipped += force.slipped;
   }
-  const double stored = 0.5 * law.kt_glass * dot(history.contact_slip, history.contact_slip);
+  const double stored = 0.5 * law.kt_glass * vec3(history.contact_slip).squaredNorm();
   EXPECT_GT(slipped, 10.0 * stored);
   EXPECT_NEAR(work, stored + slipped, 1e-9 * work);
 }

@@ -18,7 +18,7 @@ TEST(PolymerViscoelasticity, AHeldBondRelaxesAsTheStandardLinearSolid) {
   double memory[4] = {0.0, 0.0, 0.0, 0.0};
   const double gap = 3e-6, dt = 0.1 * time;
   for (int k = 1; k <= 40; ++k) {
-    const double shear = std::sqrt(dot(history.bond_slip, history.bond_slip));
+    const double shear = length(history.bond_slip);
     change({gap - bond.rest, shear, 16e-6, dt, Vec3(0.0, 0.0, 1.0), bond, history, memory});
     const double left = 1.0 - theta * (1.0 - std::exp(-0.1 * k));
     EXPECT_NEAR(gap - bond.rest, left * 3e-6, 1e-15);
