@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/path_kind.h"
 
 namespace pendular {
 namespace {
@@ -86,6 +87,12 @@ void require_file_name(const fs::path& path) {
     bad_input("{}: is a device, expected a file name to write", path.string());
 }
 
+/// Why something failed, without the words of a library about files.
+std::string reason(const std::exception& error) {
+  const auto* of_files = dynamic_cast<const fs::filesystem_error*>(&error);
+  return of_files ? of_files->code().message() : error.what();
+}
+
 class Sha256 {
  public:
   Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
@@ -138,7 +145,7 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
     throw;
   } catch (const std::exception& error) {
     fs::remove(temporary, ignored);
-    throw ComputationFailed(fmt::format("{}: cannot be written: {}", path.string(), error.what()));
+    throw ComputationFailed(fmt::format("{}: cannot be written: {}", path.string(), reason(error)));
   }
 }
 
@@ -161,7 +168,7 @@ void WrittenTogether::commit() {
     try {
       rename_durably(temporary, path);
     } catch (const fs::filesystem_error& error) {
-      throw ComputationFailed(fmt::format("{}: cannot be written: {}", path.string(), error.what()));
+      throw ComputationFailed(fmt::format("{}: cannot be written: {}", path.string(), reason(error)));
     }
   }
 }
@@ -184,7 +191,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> found;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.is_regular_file(error)) found.push_back(entry.path());
+    if (is_file(entry.path())) found.push_back(entry.path());
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -227,8 +234,7 @@ std::string read_text(const fs::path& path) {
 
 void make_folder(const fs::path& path) {
   std::error_code error;
-  if (fs::exists(path, error) && !fs::is_directory(path, error))
-    bad_input("{}: is a file, expected a folder", path.string());
+  if (is_there(path) && !is_folder(path)) bad_input("{}: is a file, expected a folder", path.string());
   fs::create_directories(path, error);
   if (error) bad_input("{}: folder cannot be created: {}", path.string(), error.message());
   if (::access(path.c_str(), W_OK) != 0)
@@ -245,7 +251,7 @@ void make_inner_folder(const fs::path& path) {
 void require_writable(const fs::path& path) {
   if (path.empty()) return;
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder)) bad_input("{}: its folder does not exist", path.string());
+  if (!is_folder(folder)) bad_input("{}: its folder does not exist", path.string());
   require_file_name(path);
   require_no_input(path);
   if (::access(folder.c_str(), W_OK) != 0)
@@ -253,14 +259,12 @@ void require_writable(const fs::path& path) {
 }
 
 void require_readable(const fs::path& path, bool folder_allowed) {
-  std::error_code error;
-  if (!fs::exists(path, error)) bad_input("{}: no such file", path.string());
-  if (fs::is_directory(path, error)) {
+  if (!is_there(path)) bad_input("{}: no such file", path.string());
+  if (is_folder(path)) {
     if (!folder_allowed) bad_input("{}: is a folder, expected a file", path.string());
     return;
   }
-  if (!fs::is_regular_file(path, error))
-    bad_input("{}: is a device or a pipe, expected a file", path.string());
+  if (!is_file(path)) bad_input("{}: is a device or a pipe, expected a file", path.string());
   if (::access(path.c_str(), R_OK) != 0)
     bad_input("{}: cannot be read: {}", path.string(), std::strerror(errno));
 }
@@ -273,13 +277,13 @@ std::string sha256(std::string_view bytes) {
 
 std::string sha256_of(const fs::path& path) {
   Sha256 hash;
-  if (!fs::is_directory(path)) {
+  if (!is_folder(path)) {
     add_file(hash, path);
     return hash.hex();
   }
   std::vector<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(path))
-    if (entry.is_regular_file()) names.push_back(entry.path().lexically_relative(path).generic_string());
+    if (is_file(entry.path())) names.push_back(entry.path().lexically_relative(path).generic_string());
   std::sort(names.begin(), names.end());
   for (const std::string& name : names) {
     hash.add(name.data(), name.size());

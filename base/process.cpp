@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/path_kind.h"
 
 namespace pendular {
 namespace {
@@ -204,7 +205,7 @@ Answer run_apart(const std::function<std::string()>& work) {
 }
 
 std::string last_line(const fs::path& log) {
-  if (!fs::exists(log)) return "";
+  if (!is_there(log)) return "";
   std::string text = read_text(log);
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text.substr(text.rfind('\n') + 1);

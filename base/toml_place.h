@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/path_kind.h"
 #include "base/sample.h"
 
 namespace pendular {
@@ -71,7 +72,7 @@ inline std::string word_at(const TomlPlace& place) {
 inline fs::path file_at(const TomlPlace& place) {
   const std::string given = word_at(place);
   const fs::path path = fs::path(place.file).parent_path() / given;
-  if (given.empty() || !fs::is_regular_file(path))
+  if (given.empty() || !is_file(path))
     bad_input("{}: found \"{}\", expected a file; {} is none", place.str(), given, path.string());
   return path;
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/path_kind.h"
 #include "base/provenance.h"
 #include "base/random.h"
 #include "blind/engine.h"
@@ -138,7 +139,7 @@ void write_scans(const Split& split, const CasePlan& plan, const Tested& a, cons
 }  // namespace
 
 bool is_made(const CaseFolders& folders, const Split& split, const CasePlan& plan) {
-  if (!fs::exists(folders.open(plan.name)) || !fs::exists(folders.sealed(plan.name))) return false;
+  if (!is_there(folders.open(plan.name)) || !is_there(folders.sealed(plan.name))) return false;
   const auto json = ordered_json::parse(read_text(folders.sealed(plan.name)), nullptr, false);
   if (json.is_discarded() || !json.contains("split") || json["split"].value("sha256", "") != split.content)
     bad_input("{}: found a case of another split, seed or version, expected one of {} with seed {}",

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/path_kind.h"
 #include "base/progress.h"
 #include "blind/processes.h"
 #include "blind/verdict.h"
@@ -12,11 +13,10 @@ namespace {
 
 std::vector<std::string> case_names(const CaseFolders& folders) {
   const fs::path cases = folders.root / "cases";
-  std::error_code error;
-  if (!fs::is_directory(cases, error)) bad_input("{}: no such folder, expected one of cases", cases.string());
+  if (!is_folder(cases)) bad_input("{}: no such folder, expected one of cases", cases.string());
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(cases))
-    if (fs::exists(entry.path() / "experiment.toml")) names.push_back(entry.path().filename().string());
+    if (is_there(entry.path() / "experiment.toml")) names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   if (names.empty()) bad_input("{}: found no case, expected folders with experiment.toml", cases.string());
   return names;
@@ -31,7 +31,7 @@ std::string true_effects(const CaseFolders& folders, const std::string& name) {
 }
 
 void check_mode(const DiagnoseRequest& request) {
-  if (fs::exists(request.reports) && !fs::is_empty(request.reports) &&
+  if (is_there(request.reports) && !fs::is_empty(request.reports) &&
       without_truth(request.reports) != request.without_truth)
     bad_input("{}: found reports made {} the true effects in the library, expected a folder of their own",
               request.reports.string(), request.without_truth ? "with" : "without");
@@ -48,7 +48,7 @@ std::vector<std::string> diagnose_cases(const CaseFolders& folders, const Diagno
   check_mode(request);
   for (const auto& name : all) {
     const fs::path report = request.reports / name;
-    if (fs::exists(report / "diagnosis.json")) continue;
+    if (is_there(report / "report.html")) continue;  // its last file
     make_inner_folder(report);
     Job job{request.diagnose.with({(folders.open(name) / "experiment.toml").string(), "-o", report.string(),
                                    "--store", request.store.string()}),

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/path_kind.h"
 #include "dem_core/bond_bodies.h"
 #include "dem_core/simulation.h"
 #include "effects/list.h"
@@ -219,7 +220,7 @@ EngineResult read_result(const fs::path& path, std::size_t beads, std::size_t fr
   const auto failed = [&](const std::string& why) {
     return ComputationFailed(fmt::format("{}: {}", path.string(), why));
   };
-  if (!fs::exists(path)) throw failed("found no file, expected the engine's result");
+  if (!is_there(path)) throw failed("found no file, expected the engine's result");
   const auto read = json::parse(read_text(path), nullptr, false);
   if (read.is_discarded()) throw failed("found text that is not JSON, or a number that is none");
   try {

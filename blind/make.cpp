@@ -34,7 +34,7 @@ void make_split(const CaseFolders& folders, const Split& split, std::size_t core
   const auto numbers = missing(folders, split, plans);
   for (const std::size_t number : numbers)
     if (!plans[number].engine.empty()) require_installed(find_engine(plans[number].engine, split.name));
-  make_inner_folder(folders.root / "work");
+  for (const char* inner : {"work", "cases", "sealed"}) make_inner_folder(folders.root / inner);
   std::vector<Job> jobs;
   for (const std::size_t number : numbers)
     jobs.push_back({command_of(number), folders.log(plans[number].name)});

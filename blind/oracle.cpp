@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/path_kind.h"
 #include "blind/verdict.h"
 #include "diagnosis/diagnose.h"
 
@@ -33,7 +34,7 @@ std::vector<std::string> measure_oracles(const CaseFolders& folders, const fs::p
   for (const auto& verdict : verdicts(open_seals(folders.root), reports)) {
     const Truth& truth = verdict.truth;
     const fs::path file = reports / truth.name / kOracle;
-    if (truth.effects.empty() || !verdict.said || !verdict.said->withheld || fs::exists(file)) continue;
+    if (truth.effects.empty() || !verdict.said || !verdict.said->withheld || is_there(file)) continue;
     const auto experiment = diagnosis::read_experiment(folders.open(truth.name) / "experiment.toml");
     const auto plan = diagnosis::plan_bank(experiment, {}, beads);
     const auto closed = diagnosis::closed_by(experiment, plan, beads, make_runs, true_changes(truth));

@@ -6,6 +6,7 @@
 
 #include "base/csv.h"
 #include "base/error.h"
+#include "base/path_kind.h"
 #include "blind/case_folder.h"
 
 namespace pendular::blind {
@@ -81,7 +82,7 @@ void read_separation(Diagnosed& said, const json& separation) {
 }
 
 std::optional<double> read_oracle(const fs::path& path) {
-  if (!fs::exists(path)) return std::nullopt;
+  if (!is_there(path)) return std::nullopt;
   return read_json<std::optional<double>>(path, [](const json& read) { return number_in(read, "fraction"); });
 }
 
@@ -123,7 +124,7 @@ bool Verdict::in_set(const std::string& id) const {
 }
 
 bool without_truth(const fs::path& reports) {
-  return fs::exists(reports / kMark);
+  return is_there(reports / kMark);
 }
 
 void mark_without_truth(const fs::path& reports) {
@@ -158,11 +159,11 @@ std::vector<Truth> open_seals(const fs::path& folder) {
   for (std::size_t k = 0; k < seals.rows(); ++k) {
     const std::string &name = seals.texts("case")[k], &hash = seals.texts("sha256")[k];
     const fs::path sealed = folders.sealed(name);
-    if (!fs::exists(sealed))
+    if (!is_there(sealed))
       bad_input("{}: is missing, expected the truth of a case of {}", sealed.string(),
                 folders.seals().string());
     const std::string found = sha256_of(sealed);
-    const bool open_too = fs::exists(folders.open(name));
+    const bool open_too = is_there(folders.open(name));
     if (found != hash || (open_too && published_seal(folders.open(name)) != found))
       bad_input("{}: found a file of SHA-256 {}, expected the one that was published, {}", sealed.string(),
                 found, hash);
@@ -195,7 +196,7 @@ Diagnosed read_diagnosis(const fs::path& path) {
 }
 
 std::vector<Verdict> verdicts(const std::vector<Truth>& truths, const fs::path& reports) {
-  if (!fs::is_directory(reports)) bad_input("{}: no such folder, expected one of reports", reports.string());
+  if (!is_folder(reports)) bad_input("{}: no such folder, expected one of reports", reports.string());
   const bool left_out = without_truth(reports);
   std::vector<Verdict> all;
   for (const auto& truth : truths) {
@@ -203,7 +204,7 @@ std::vector<Verdict> verdicts(const std::vector<Truth>& truths, const fs::path& 
     Verdict verdict{truth, left_out ? "unknown" : truth.answer, std::nullopt, ""};
     const fs::path path = reports / truth.name / "diagnosis.json";
     try {
-      if (fs::exists(path)) {
+      if (is_there(path)) {
         verdict.said = read_diagnosis(path);
         verdict.said->closable = read_oracle(reports / truth.name / kOracle);
       } else {

@@ -1,6 +1,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/path_kind.h"
 #include "cli/command.h"
 #include "cli/option_checks.h"
 #include "packing/exchange.h"
@@ -58,7 +59,7 @@ void convert_polydata(const ConvertOptions& options, const fs::path& out) {
 
 void run(const ConvertOptions& options) {
   const fs::path out = output_of(options);
-  if (fs::is_directory(options.in)) return convert_run(options, out);
+  if (is_folder(options.in)) return convert_run(options, out);
   const ExchangeFormat from = format_for(options.from, options.in), to = format_for(options.format, out);
   if (from == ExchangeFormat::vtp && to == ExchangeFormat::vtkhdf) return convert_polydata(options, out);
   if (from != ExchangeFormat::spam && (options.voxel_um || options.displaced))

@@ -38,8 +38,20 @@ void prepare(CLI::App& app) {
   add_commands(app);
 }
 
+/// An empty name or value would pass for one that was not given, or take the next word in its place.
+void require_no_empty_word(const std::vector<std::string>& words) {
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    const bool empty = words[k].empty(),
+               nothing_given = words[k].starts_with("--") && words[k].find('=') == words[k].size() - 1;
+    if (empty || nothing_given)
+      throw BadUsage(fmt::format("{}: found nothing, expected a name or a value",
+                                 empty && k > 0 ? words[k - 1] : words[k]));
+  }
+}
+
 void parse(CLI::App& app, const std::vector<std::string>& words) {
   set_command_line(words);
+  require_no_empty_word(words);
   if (!words.empty() && words[0][0] != '-' &&
       app.get_subcommands([&](CLI::App* command) { return command->get_name() == words[0]; }).empty())
     throw BadUsage(fmt::format("unknown command \"{}\" (see pendular --help)", words[0]));
@@ -91,6 +103,8 @@ int run_program(const std::vector<std::string>& words) {
     return fail(error.exit_status(), error.what());
   } catch (const std::bad_alloc&) {
     return fail(4, "out of memory");
+  } catch (const fs::filesystem_error& error) {
+    return fail(4, fmt::format("{}: {}", error.path1().string(), error.code().message()));
   } catch (const std::exception& error) {
     return fail(4, error.what());
   }

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "base/path_kind.h"
 #include "base/progress.h"
 #include "cli/command.h"
 #include "cli/picture_commands.h"
@@ -22,7 +23,7 @@ struct Options {
 void render(Options& options) {
   apply(options.common, {});
   for (const auto& input : picture_inputs(options.run))
-    protect_also(fs::is_directory(input) ? files_in(input) : std::vector{input});
+    protect_also(is_folder(input) ? files_in(input) : std::vector{input});
   const fs::path out = options.common.out.empty() ? options.run / "pictures" : options.common.out;
   if (options.common.out.empty()) make_inner_folder(out);
   options.render.film = !options.no_film;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/path_kind.h"
 #include "base/progress.h"
 #include "cli/command.h"
 #include "cli/picture_commands.h"
@@ -33,13 +34,13 @@ constexpr const char* kSweeps[] = {"realisations_a",     "realisations_b", "modu
 std::vector<Point> points_of(const Options& options, const std::string& name,
                              std::vector<std::string>& failed) {
   const fs::path path = options.folder / (name + ".toml");
-  if (!fs::exists(path)) return {};
+  if (!is_there(path)) return {};
   sweep::SweepFile file = sweep::read_sweep(path);
   if (options.realisations > 0) file.realisations = std::min(file.realisations, options.realisations);
   const sweep::Plan plan = sweep::plan_of(file);
-  const auto outcomes = make_runs(options.making, options.common, file.name, plan.requests);
   const fs::path tables = options.common.out / name;
   make_inner_folder(tables);
+  const auto outcomes = make_runs(options.making, options.common, file.name, plan.requests);
   Provenance from = provenance(options.common, {path, file.sample});
   from.seed = file.seed;
   sweep::write_tables(tables, plan, outcomes, from);
@@ -51,8 +52,7 @@ std::vector<Point> points_of(const Options& options, const std::string& name,
 std::vector<fs::path> inputs_of(const fs::path& folder) {
   std::vector<fs::path> inputs;
   for (const char* name : kSweeps)
-    if (const fs::path path = folder / (std::string(name) + ".toml"); fs::exists(path))
-      inputs.push_back(path);
+    if (const fs::path path = folder / (std::string(name) + ".toml"); is_there(path)) inputs.push_back(path);
   if (inputs.empty())
     bad_input("{}: found no sweep of this name, expected some of {}.toml", folder.string(),
               fmt::join(kSweeps, ".toml, "));

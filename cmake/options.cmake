@@ -38,6 +38,9 @@ target_compile_options(pendular_flags INTERFACE -Wall -Wextra -Wpedantic -Wshado
                        -ffp-contract=off
                        # Libraries are position-independent; their own calls are still inlined.
                        -fno-semantic-interposition)
+# Debian's ITK knows GCC alone and refuses other compilers: what its headers would have learnt of them.
+target_compile_definitions(pendular_flags INTERFACE $<$<CXX_COMPILER_ID:Clang>:ITK_COMPILER_DETECTION_H;
+  ITK_COMPILER_CXX_STATIC_ASSERT=1;ITK_CONSTEXPR=constexpr;ITK_NOEXCEPT=noexcept>)
 if(PENDULAR_SANITIZE STREQUAL "address")
   set(sanitizers address,undefined)
 elseif(PENDULAR_SANITIZE)

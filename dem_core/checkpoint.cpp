@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/model_version.h"
+#include "base/path_kind.h"
 #include "base/progress.h"
 
 namespace pendular {
@@ -192,20 +193,20 @@ RunState read_checkpoint(const fs::path& path, const std::string& identity) {
 void keep_checkpoint(const fs::path& folder, const RunState& state, const std::string& identity) {
   const fs::path newest = folder / kNewest, next = folder / kNext;
   write_checkpoint(next, state, identity);
-  if (fs::exists(newest)) rename_durably(newest, folder / kPrevious);
+  if (is_there(newest)) rename_durably(newest, folder / kPrevious);
   rename_durably(next, newest);
 }
 
 std::optional<RunState> kept_checkpoint(const fs::path& folder, const std::string& identity) {
   const fs::path newest = folder / kNewest, previous = folder / kPrevious;
-  if (!fs::exists(newest) && !fs::exists(previous)) return std::nullopt;
+  if (!is_there(newest) && !is_there(previous)) return std::nullopt;
   std::string wrong;
   try {
     return read_checkpoint(newest, identity);
   } catch (const BadInput& error) {
     wrong = error.what();
   }
-  if (!fs::exists(previous)) throw BadInput(wrong);
+  if (!is_there(previous)) throw BadInput(wrong);
   RunState state;
   try {
     state = read_checkpoint(previous, identity);

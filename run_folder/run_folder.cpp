@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/path_kind.h"
 
 namespace pendular {
 
@@ -19,14 +20,14 @@ std::vector<fs::path> sorted_entries(const fs::path& folder, const std::string& 
 }
 
 RunFolder read_run_curves(const fs::path& path) {
-  if (!fs::is_directory(path)) bad_input("{}: found no folder, expected a run folder", path.string());
+  if (!is_folder(path)) bad_input("{}: found no folder, expected a run folder", path.string());
   RunFolder run;
   run.path = path;
   const fs::path curve = path / run_file::kCurve;
   const auto rows = read_curve(curve, {&CurveRow::strain, &CurveRow::stress});
   if (rows.size() < 2) bad_input("{}: found {} rows, expected at least 2", curve.string(), rows.size());
   for (const auto& row : rows) run.strain.push_back(row.strain), run.stress.push_back(row.stress);
-  if (fs::exists(path / run_file::kEvents)) run.break_strain = read_break_strains(path / run_file::kEvents);
+  if (is_there(path / run_file::kEvents)) run.break_strain = read_break_strains(path / run_file::kEvents);
   run.result = read_result(path / run_file::kResult);
   run.frames = frame_files(path);
   return run;
@@ -40,8 +41,8 @@ RunFolder read_run_folder(const fs::path& path) {
 }
 
 std::vector<fs::path> realisations(const fs::path& path) {
-  if (!fs::is_directory(path)) bad_input("{}: found no folder, expected a run folder", path.string());
-  if (fs::exists(path / run_file::kCurve)) return {path};
+  if (!is_folder(path)) bad_input("{}: found no folder, expected a run folder", path.string());
+  if (is_there(path / run_file::kCurve)) return {path};
   auto found = sorted_entries(path, "realisation_", "");
   if (found.empty())
     bad_input("{}: found neither curve.csv nor realisation_* folders, expected a run folder", path.string());
@@ -52,7 +53,7 @@ std::vector<fs::path> picture_inputs(const fs::path& path) {
   std::vector<fs::path> inputs;
   for (const fs::path& run : realisations(path))
     for (const char* name : {run_file::kCurve, run_file::kEvents, run_file::kResult, run_file::kFrames})
-      if (fs::exists(run / name)) inputs.push_back(run / name);
+      if (is_there(run / name)) inputs.push_back(run / name);
   return inputs;
 }
 

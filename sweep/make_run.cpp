@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/model_version.h"
 #include "base/parallel.h"
+#include "base/path_kind.h"
 #include "effects/compress.h"
 #include "packing/bridges.h"
 #include "packing/generate.h"
@@ -66,7 +67,7 @@ Packing start_packing(const Store& store, const RunRequest& request) {
   const std::string name = packing_hash(request);
   const fs::path path = store.packing_path(name);
   const bool generated = request.packing.sha256.empty();
-  if (generated && !fs::exists(path)) {
+  if (generated && !is_there(path)) {
     Packing packing = generate_packing(request.sample, request.packing.seed);
     packing.provenance = {program_version(), "pendular sweep: packing " + name, request.packing.seed, {}};
     write_packing(path, packing);
@@ -105,8 +106,8 @@ void make(Store& store, const std::string& hash) {
   if (content_hash(request) != hash)
     bad_input("run {}: was asked for by another version of the model, this is {}", hash, kModelVersion);
   const fs::path final_folder = store.run_folder(hash), folder = store.part_folder(hash);
-  if (fs::exists(final_folder)) make_inner_folder(final_folder);
-  if (fs::exists(final_folder)) return book(store, hash, request, std::nullopt);
+  if (is_there(final_folder)) make_inner_folder(final_folder);
+  if (is_there(final_folder)) return book(store, hash, request, std::nullopt);
   make_inner_folder(folder);
   write_text(folder / "request.json", request_text(request));
   write_text(folder / "sample.toml", sample_text(request.sample));

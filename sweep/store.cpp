@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/path_kind.h"
 #include "base/progress.h"
 
 namespace pendular::sweep {
@@ -103,7 +104,7 @@ Store::Store(const fs::path& folder) : folder_(with_folders(folder)), index_(fol
 }
 
 bool Store::exists(const fs::path& folder) {
-  return fs::exists(folder / kIndex);
+  return is_there(folder / kIndex);
 }
 
 void Store::make_index() {
@@ -123,13 +124,13 @@ std::size_t Store::enter_run_folders() {
   std::size_t entered = 0;
   for (const auto& entry : fs::directory_iterator(folder_ / "runs")) {
     const std::string hash = entry.path().stem().string();
-    if (!fs::exists(entry.path() / "request.json")) continue;
+    if (!is_there(entry.path() / "request.json")) continue;
     const std::string request = read_text(entry.path() / "request.json");
     if (sha256(request) != hash) continue;
     if (entry.path().extension() != ".part") {
       index_.run("INSERT OR REPLACE INTO runs (hash, status, request) VALUES (?, 'done', ?)",
                  {hash, request});
-    } else if (fs::exists(entry.path() / kFailure)) {
+    } else if (is_there(entry.path() / kFailure)) {
       const auto failure = nlohmann::json::parse(read_text(entry.path() / kFailure), nullptr, false);
       if (!is_failure(failure)) continue;  // to be made again
       index_.run(
@@ -149,7 +150,7 @@ std::vector<std::string> Store::add(std::span<const RunRequest> requests) {
   for (const auto& request : requests) {
     hashes.push_back(sha256(texts.emplace_back(request_text(request))));
     const auto& packing = request.packing;
-    if (!packing.sha256.empty() && !fs::exists(packing_path(packing.sha256)))
+    if (!packing.sha256.empty() && !is_there(packing_path(packing.sha256)))
       write_atomically(packing_path(packing.sha256),
                        [&](const fs::path& copy) { fs::copy_file(packing.file, copy); });
   }
@@ -157,7 +158,7 @@ std::vector<std::string> Store::add(std::span<const RunRequest> requests) {
   for (std::size_t k = 0; k < hashes.size(); ++k) {
     index_.run("INSERT OR IGNORE INTO runs (hash, status, request) VALUES (?, 'waiting', ?)",
                {hashes[k], texts[k]});
-    if (!fs::exists(run_folder(hashes[k])))
+    if (!is_there(run_folder(hashes[k])))
       index_.run("UPDATE runs SET status = 'waiting' WHERE hash = ? AND status = 'done'", {hashes[k]});
   }
   transaction.commit();
@@ -190,7 +191,7 @@ std::vector<std::pair<std::string, std::string>> Store::finished() {
   std::vector<std::pair<std::string, std::string>> runs;
   for (const auto& row : index_.run("SELECT hash, request FROM runs WHERE status = 'done'")) {
     const auto hash = value_or<std::string>(row[0], "");
-    if (fs::exists(run_folder(hash))) runs.emplace_back(hash, value_or<std::string>(row[1], ""));
+    if (is_there(run_folder(hash))) runs.emplace_back(hash, value_or<std::string>(row[1], ""));
   }
   return runs;
 }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/path_kind.h"
 #include "volume/length_unit.h"
 
 namespace pendular {
@@ -21,7 +22,7 @@ bool has_extension(const fs::path& file) {
 }
 
 bool has_mark(const fs::path& file) {
-  return fs::is_regular_file(file) && H5Fis_hdf5(file.c_str()) > 0;
+  return is_file(file) && H5Fis_hdf5(file.c_str()) > 0;
 }
 
 /// The text of an attribute or dataset of one string, of fixed or variable length; empty where it is none.
@@ -190,8 +191,8 @@ std::optional<Placement> element_size(hid_t set, const fs::path& path) {
 }  // namespace
 
 std::optional<Hdf5Address> hdf5_address(const fs::path& path) {
-  if (fs::exists(path)) {
-    if (fs::is_directory(path) || (!has_extension(path) && !has_mark(path))) return std::nullopt;
+  if (is_there(path)) {
+    if (is_folder(path) || (!has_extension(path) && !has_mark(path))) return std::nullopt;
     return Hdf5Address{path, ""};
   }
   const std::string text = path.string();
@@ -201,7 +202,7 @@ std::optional<Hdf5Address> hdf5_address(const fs::path& path) {
     return std::nullopt;
   }
   const fs::path file = text.substr(0, at);
-  if (!has_extension(file) && !fs::is_regular_file(file)) return std::nullopt;
+  if (!has_extension(file) && !is_file(file)) return std::nullopt;
   std::string object = text.substr(at + 1);
   while (object.size() > 1 && object.back() == '/') object.pop_back();
   return Hdf5Address{file, object};

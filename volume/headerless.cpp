@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "base/error.h"
+#include "base/path_kind.h"
 #include "volume/format.h"
 #include "volume/pixels.h"
 #include "volume/place.h"
@@ -32,11 +33,10 @@ Volume read_headerless(const fs::path& path, const ReadOptions& options) {
 }
 
 VolumeFormat formats::headerless() {
-  return {
-      .name = "raw data of a stated size",
-      .recognises = [](const fs::path& path,
-                       const ReadOptions& options) { return options.raw_size && !fs::is_directory(path); },
-      .read = read_headerless};
+  return {.name = "raw data of a stated size",
+          .recognises = [](const fs::path& path,
+                           const ReadOptions& options) { return options.raw_size && !is_folder(path); },
+          .read = read_headerless};
 }
 
 }  // namespace pendular

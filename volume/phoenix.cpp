@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "base/error.h"
+#include "base/path_kind.h"
 #include "volume/format.h"
 #include "volume/headerless.h"
 
@@ -49,7 +50,7 @@ fs::path data_of(const fs::path& path, std::string named) {
   std::replace(named.begin(), named.end(), '\\', '/');
   for (const fs::path& candidate :
        {path.parent_path() / fs::path(named).filename(), fs::path(path).replace_extension(".vol")})
-    if (fs::is_regular_file(candidate)) return candidate;
+    if (is_file(candidate)) return candidate;
   bad_input("{}: found no volume beside it, expected {}", path.string(),
             fs::path(path).replace_extension(".vol").filename().string());
 }
@@ -74,7 +75,7 @@ namespace {
 
 bool recognises(const fs::path& path, const ReadOptions&) {
   return path.extension() == ".pcr" ||
-         (path.extension() == ".vol" && fs::exists(fs::path(path).replace_extension(".pcr")));
+         (path.extension() == ".vol" && is_there(fs::path(path).replace_extension(".pcr")));
 }
 
 std::vector<fs::path> files(const fs::path& path) {

@@ -1,5 +1,6 @@
 #include "volume/read_dicom.h"
 
+#include "base/path_kind.h"
 #include "volume/itk_images.h"
 
 #include <itkGDCMImageIO.h>
@@ -122,7 +123,7 @@ std::array<double, 3> set_spacing(Volume& volume, const itk::ImageIOBase& first,
 }
 
 Volume read_series(const fs::path& path, const ReadOptions& options) {
-  const auto files = fs::is_directory(path) ? series_in(path) : std::vector{path};
+  const auto files = is_folder(path) ? series_in(path) : std::vector{path};
   Progress progress("reading slices", static_cast<double>(files.size()));
   const auto first = opened(files.front());
   Volume volume;
@@ -163,10 +164,10 @@ rlim_t in_use() {
 }
 
 rlim_t bytes_in(const fs::path& path) {
-  if (fs::is_regular_file(path)) return fs::file_size(path);
+  if (is_file(path)) return fs::file_size(path);
   rlim_t sum = 0;
   for (const auto& entry : fs::directory_iterator(path))
-    if (entry.is_regular_file()) sum += entry.file_size();
+    if (is_file(entry.path())) sum += entry.file_size();
   return sum;
 }
 
@@ -197,13 +198,13 @@ void try_reading(const fs::path& path, const ReadOptions& options) {
 }  // namespace
 
 bool is_dicom(const fs::path& path) {
-  if (fs::is_regular_file(path)) return has_mark(path);
-  if (!fs::is_directory(path)) return false;
+  if (is_file(path)) return has_mark(path);
+  if (!is_folder(path)) return false;
   bool found = false;
   for (const auto& entry : fs::directory_iterator(path)) {
     const std::string extension = lower_extension(entry.path());
     if (extension == ".tif" || extension == ".tiff" || extension == ".png") return false;
-    found = found || (entry.is_regular_file() && has_mark(entry.path()));
+    found = found || (is_file(entry.path()) && has_mark(entry.path()));
   }
   return found;
 }
@@ -214,13 +215,12 @@ Volume read_dicom(const fs::path& path, const ReadOptions& options) {
 }
 
 VolumeFormat formats::dicom() {
-  return {.name = "DICOM (a folder of slices, or a file of several frames)",
-          .recognises = [](const fs::path& path, const ReadOptions&) { return is_dicom(path); },
-          .files =
-              [](const fs::path& path) {
-                return fs::is_directory(path) ? files_in(path) : std::vector<fs::path>{path};
-              },
-          .read = read_dicom};
+  return {
+      .name = "DICOM (a folder of slices, or a file of several frames)",
+      .recognises = [](const fs::path& path, const ReadOptions&) { return is_dicom(path); },
+      .files =
+          [](const fs::path& path) { return is_folder(path) ? files_in(path) : std::vector<fs::path>{path}; },
+      .read = read_dicom};
 }
 
 }  // namespace pendular

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "base/interrupt.h"
+#include "base/path_kind.h"
 #include "base/progress.h"
 #include "volume/format.h"
 #include "volume/image_io.h"
@@ -105,7 +106,7 @@ Volume read_slices(const fs::path& folder, const ReadOptions& options) {
 
 VolumeFormat formats::slices() {
   return {.name = "folder of TIFF or PNG slices",
-          .recognises = [](const fs::path& path, const ReadOptions&) { return fs::is_directory(path); },
+          .recognises = [](const fs::path& path, const ReadOptions&) { return is_folder(path); },
           .files = slice_files,
           .read = read_slices};
 }

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/path_kind.h"
 #include "volume/format.h"
 #include "volume/read_hdf5.h"
 
@@ -47,7 +48,7 @@ std::vector<fs::path> volume_files(const fs::path& path) {
 
 Volume read_volume(const fs::path& path, const ReadOptions& options) {
   require_readable(volume_place(path), true);
-  if (options.raw_size && fs::is_directory(path))
+  if (options.raw_size && is_folder(path))
     throw BadUsage("--size: found a folder of slices, expected headerless data");
   const VolumeFormat* format = format_of(path, options);
   if (!format)

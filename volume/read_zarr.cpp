@@ -9,6 +9,7 @@
 #include "base/inflate.h"
 #include "base/interrupt.h"
 #include "base/parallel.h"
+#include "base/path_kind.h"
 #include "base/progress.h"
 #include "volume/format.h"
 #include "volume/pixels.h"
@@ -36,8 +37,7 @@ void for_each_chunk(const ZarrArray& zarr, const Visit& visit) {
 
 /// Bytes that a chunk says it inflates to, or that deflate cannot exceed; its file is there.
 std::uintmax_t bytes_behind(const ZarrArray& zarr, const fs::path& file) {
-  if (!fs::is_regular_file(file))
-    bad_input("{}: found no such chunk, expected every chunk of the array", file.string());
+  if (!is_file(file)) bad_input("{}: found no such chunk, expected every chunk of the array", file.string());
   const std::uintmax_t stored = fs::file_size(file);
   if (zarr.codec != ZarrArray::Codec::blosc) return stored;
   const MappedFile chunk(file);

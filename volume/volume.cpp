@@ -1,5 +1,6 @@
 #include "volume/volume.h"
 
+#include "base/path_kind.h"
 #include "volume/image_io.h"
 
 #include <itkMetaImageIO.h>
@@ -71,7 +72,7 @@ void write_volume(const fs::path& path, const Volume& volume, const Provenance& 
     }
     // The library does not always say that the disc is full.
     const auto bytes = with_pixels(volume, [](auto pixels) { return pixels.size_bytes(); });
-    if (!fs::exists(temporary) || fs::file_size(temporary) < bytes)
+    if (!is_there(temporary) || fs::file_size(temporary) < bytes)
       throw ComputationFailed(
           fmt::format("{}: cannot be written: no space for {} bytes", path.string(), bytes));
   });

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/path_kind.h"
 #include "volume/length_unit.h"
 #include "volume/read_zarr.h"
 
@@ -88,7 +89,7 @@ void read_codec(const json& array, const fs::path& file, ZarrArray& zarr) {
 /// The image's only or first multiscale entry; null where the folder is none.
 json multiscale(const fs::path& folder) {
   const fs::path file = folder / ".zattrs";
-  if (!fs::is_regular_file(file)) return nullptr;
+  if (!is_file(file)) return nullptr;
   const json attributes = read_json(file);
   if (!attributes.contains("multiscales")) return nullptr;
   const json& all = attributes["multiscales"];
@@ -168,17 +169,16 @@ fs::path ZarrArray::chunk_file(const std::array<std::size_t, 3>& at) const {
 
 bool is_zarr(const fs::path& folder) {
   for (const char* name : {".zarray", ".zgroup", "zarr.json"})
-    if (fs::is_regular_file(folder / name)) return true;
-  return fs::is_directory(folder) && folder.extension() == ".zarr";
+    if (is_file(folder / name)) return true;
+  return is_folder(folder) && folder.extension() == ".zarr";
 }
 
 ZarrArray read_zarr_metadata(const fs::path& folder) {
-  if (fs::is_regular_file(folder / "zarr.json"))
-    bad_input("{}: found Zarr format 3, expected format 2", folder.string());
+  if (is_file(folder / "zarr.json")) bad_input("{}: found Zarr format 3, expected format 2", folder.string());
   ZarrArray zarr;
   zarr.folder = folder;
   fs::path image_folder = folder;
-  if (!fs::is_regular_file(folder / ".zarray")) {
+  if (!is_file(folder / ".zarray")) {
     const json image = multiscale(folder);
     if (image.is_null())
       bad_input(

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/path_kind.h"
 #include "base/random.h"
 #include "effects/compress.h"
 #include "effects/list.h"
@@ -103,7 +104,7 @@ sweep::PackingSource beads_of_member(const Condition& condition, int member, con
                   condition.network.empty() ? "" : fmt::format(" {}", sha256_of(condition.network))));
   const fs::path path = folder / (name.substr(0, 16) + ".vtp");
   make_inner_folder(folder);
-  if (!fs::exists(path)) write_packing(path, measured_packing(condition, member, changed));
+  if (!is_there(path)) write_packing(path, measured_packing(condition, member, changed));
   return sweep::packing_file(path);
 }
 

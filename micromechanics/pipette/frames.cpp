@@ -1,4 +1,5 @@
 #include "pipette/frames.h"
+#include "base/path_kind.h"
 
 #include <algorithm>
 #include <cctype>
@@ -47,10 +48,10 @@ bool matches(const std::string& name, const std::string& pattern) {
 std::vector<Numbered> numbered_images(const fs::path& folder, const std::string& pattern,
                                       const std::string& said) {
   std::vector<Numbered> images;
-  if (!fs::is_directory(folder)) bad_input("{}: no such file or folder", said);
+  if (!is_folder(folder)) bad_input("{}: no such file or folder", said);
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
-    if (!entry.is_regular_file() || !kImages.count(lower(path.extension().string())) ||
+    if (!is_file(entry.path()) || !kImages.count(lower(path.extension().string())) ||
         !matches(path.filename().string(), pattern))
       continue;
     const auto number = number_of(path);
@@ -105,7 +106,7 @@ FrameSource::FrameSource(const fs::path& path) : state_(std::make_unique<State>(
     return;
   }
   require_readable(path, true);
-  if (fs::is_directory(path)) {
+  if (is_folder(path)) {
     state_->images = numbered_images(path, "*", path.string());
     return;
   }

@@ -1,4 +1,5 @@
 #include "binding/inputs.h"
+#include "base/path_kind.h"
 
 #include <cstring>
 
@@ -22,7 +23,7 @@ Provenance provenance_of(const Origin& origin) {
 void protect_inputs_of(const Origin& origin) {
   std::vector<fs::path> files;
   for (const auto& input : origin.inputs)
-    if (fs::is_regular_file(input.path)) files.push_back(input.path);
+    if (is_file(input.path)) files.push_back(input.path);
   protect_inputs(files);
 }
 

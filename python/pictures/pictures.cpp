@@ -1,4 +1,5 @@
 #include "pictures/pictures.h"
+#include "base/path_kind.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -29,8 +30,7 @@ std::vector<fs::path> render(const fs::path& run, const fs::path& out, const std
   if (!view.empty()) require_view(view);
   return work(terms, [&] {
     const auto inputs = picture_inputs(run);
-    for (const auto& input : inputs)
-      protect_also(fs::is_directory(input) ? files_in(input) : std::vector{input});
+    for (const auto& input : inputs) protect_also(is_folder(input) ? files_in(input) : std::vector{input});
     viz::RenderOptions options;
     options.view = view;
     options.film = film;

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/path_kind.h"
 #include "scratch.h"
 
 namespace pendular {
@@ -48,6 +49,23 @@ TEST(Files, FullDiscIsSaid) {
                                   if (!out) throw ComputationFailed("no space");
                                 }),
                ComputationFailed);
+}
+
+TEST(Files, WhatCannotBeSeenIsSaid) {
+  ScratchFolder folder;
+  fs::create_symlink("circle", folder / "circle");
+  fs::create_symlink("nowhere", folder / "dangling");
+  write_text(folder / "file", "");
+  EXPECT_TRUE(is_file(folder / "file") && is_folder(folder.path()) && is_there(folder / "file"));
+  EXPECT_FALSE(is_there(folder / "dangling") || is_file(folder.path()) || is_folder(folder / "file/below"));
+  for (const fs::path& unseen :
+       {folder / "circle", folder / "circle" / "below", folder / std::string(300, 'x')}) {
+    EXPECT_THROW(is_there(unseen), BadInput);
+    EXPECT_THROW(is_file(unseen), BadInput);
+    EXPECT_THROW(is_folder(unseen), BadInput);
+    EXPECT_THROW(require_readable(unseen), BadInput);
+    EXPECT_THROW(make_folder(unseen), BadInput);
+  }
 }
 
 TEST(Files, FolderWhereAFileIs) {

@@ -74,6 +74,34 @@ TEST(BlindCommand, GoesOnWithTheSameBytesAndScores) {
   EXPECT_FALSE(fs::exists(folder / "again"));
 }
 
+TEST(BlindCommand, DiagnosesAnewWhereAReportIsCutOff) {
+  ScratchFolder folder;
+  for (const char* name : {"case_001", "case_002"}) {
+    make_folder(folder / "out/cases" / name);
+    write_text(folder / "out/cases" / name / "experiment.toml",
+               "");  // cannot be diagnosed, which takes no time
+    report(folder / "reports" / name, "none");
+  }
+  write_text(folder / "reports/case_001/report.html", "written last");
+  const Outcome found = run(folder, "diagnose out -o reports");
+  EXPECT_EQ(found.status, 4);
+  EXPECT_NE(found.errors.find("1 cases could not be diagnosed; case_002"), std::string::npos) << found.errors;
+}
+
+TEST(BlindCommand, WritesThroughNoLink) {
+  for (const char* inner : {"cases", "sealed", "work"}) {
+    ScratchFolder folder;
+    make_folder(folder / "elsewhere");
+    make_folder(folder / "out");
+    fs::create_directory_symlink(folder / "elsewhere", folder / "out" / inner);
+    const Outcome made = run(folder, "make " + kSplit + " -o out");
+    EXPECT_EQ(made.status, 3) << made.errors;
+    EXPECT_NE(made.errors.find(std::string("out/") + inner + ": is a link"), std::string::npos)
+        << made.errors;
+    EXPECT_TRUE(fs::is_empty(folder / "elsewhere"));
+  }
+}
+
 TEST(BlindCommand, SaysWhatIsMissing) {
   ScratchFolder folder;
   EXPECT_EQ(run(folder, "score nowhere reports -o score").status, 3);

@@ -120,6 +120,21 @@ def names():
                   changes=(name + ".vtp", name + ".json"))
 
 
+def no_names():
+    """What is empty would pass for what was not given, or take the next word in its place."""
+    for command in ("segment scan.mha", "pack beads.csv --sample s.toml", "compress p.vtp --sample s.toml", "render run", "sweep sweep.toml",
+                    "phantom s.toml", "modulus p.vtp --sample s.toml", "track beads.csv beads.csv", "bridge s.toml", "diagnose e.toml",
+                    "blind make split.toml", "blind diagnose split", "blind score split reports", "reproduce paper", "demo",
+                    "pipette frames --calibration c.toml"):
+        for words in ("-o ''", "--out ''", "--out=", "--out= --quiet"):
+            yield Row(f"14 {command.split(' --')[0]} {words}", f"$P {command} {words}", 2, "found nothing, expected")
+    for command in ("convert p.vtp ''", "convert '' new.vtp", "segment ''", "segment scan.mha -o new.csv --bridges ''",
+                    "segment scan.mha -o new.csv --labels ''", "segment scan.mha -o new.csv --qa ''", "phantom s.toml -o new.mha --truth ''",
+                    "phantom s.toml -o new.mha --packing ''", "pack beads.csv --sample s.toml -o new.vtp --bridges ''",
+                    "track beads.csv beads.csv -o new.csv --pictures ''", "sweep sweep.toml -o new --store ''", "''", "bridge s.toml --plot ''"):
+        yield Row(f"14 {command}", f"$P {command}", 2, "found nothing, expected")
+
+
 def full_discs():
     limit = "ulimit -f {}; trap '' XFSZ; "
     yield Row("16 full disc in --labels", limit.format(300) + "$P segment scan.mha -o new.csv --labels new.mha --quiet", 4, "new.mha")
@@ -145,5 +160,6 @@ def rows():
     yield from folders()
     yield from streams()
     yield from names()
+    yield from no_names()
     yield from full_discs()
     yield from numbers()

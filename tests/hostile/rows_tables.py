@@ -1,4 +1,5 @@
 """Tables, packings, samples and experiments: numbers that cannot be, files that are cut."""
+import os
 import random
 
 from row import SAMPLE, Row, both, file
@@ -173,6 +174,19 @@ def experiments():
         yield row(f"{kind} that cannot be", kind, text)
 
 
+def files_beside():
+    """Files that an experiment, a split or a sweep names."""
+    for name, word in {"too long": "x" * 300, "a circle": "circle", "a folder": "run", "a device": "/dev/zero", "empty": ""}.items():
+        circle = lambda folder: os.symlink("circle", folder / "circle")
+        yield Row(f"12 an experiment whose sample is {name}", "$P diagnose e.toml -o new", 3, "",
+                  both(circle, file("e.toml", f'[experiment]\nsample = "{word}"\n')))
+        yield Row(f"12 an observation whose file is {name}", "$P diagnose e.toml -o new", 3, "",
+                  both(circle, file("e.toml", f'[experiment]\nsample = "s.toml"\n[[observation]]\nkind = "coordination"\nfile = "{word}"\n')))
+        yield Row(f"12 a sweep whose sample is {name}", "$P sweep w.toml -o new", 3, "", both(circle, file("w.toml", f'[sweep]\nsample = "{word}"\n')))
+        yield Row(f"12 a sweep whose packing is {name}", "$P sweep w.toml -o new", 3, "",
+                  both(circle, file("w.toml", f'[sweep]\nsample = "s.toml"\npacking = "{word}"\n')))
+
+
 def messages():
     red = "\x1b[31mred\x07\u202e"
     yield Row("19 colour codes in a cell", "$P pack b.csv --sample s.toml -o new.vtp", 3, "b.csv:7", file("b.csv", table(red, "x_um")))
@@ -192,4 +206,5 @@ def rows():
     yield from packings()
     yield from samples()
     yield from experiments()
+    yield from files_beside()
     yield from messages()

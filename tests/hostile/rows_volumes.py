@@ -120,7 +120,25 @@ def headers():
     yield Row("a pipe as volume", SEGMENT.format("v.mha"), 3, "v.mha", lambda folder: os.mkfifo(folder / "v.mha"))
 
 
+PCR = "[VolumeData]\nVOL_File={}\nVoxelSizeRec=0.01\nFormat=5\nVolume_SizeX=6\nVolume_SizeY=5\nVolume_SizeZ=4\n"
+
+
+def beside():
+    """Files that a volume is told to have beside it, which cannot be."""
+    for name, word in {"too long": "x" * 300, "a circle": "circle.vol", "empty": "", "a folder": "run", "up": "../../etc/passwd"}.items():
+        yield Row(f"5 a .pcr whose data are {name}", SEGMENT.format("v.pcr"), 3, "v.pcr" if name in ("empty", "a folder", "up") else "cannot be seen",
+                  both(file("v.pcr", PCR.format(word)), lambda folder: os.symlink("circle.vol", folder / "circle.vol")))
+        yield Row(f"5 a .mhd whose data are {name}", SEGMENT.format("v.mhd"), 3, "ElementDataFile",
+                  both(file("v.mhd", meta(word)), lambda folder: os.symlink("circle.vol", folder / "circle.vol")))
+        yield Row(f"5 a .nhdr whose data are {name}", SEGMENT.format("v.nhdr"), 3, "data",
+                  both(file("v.nhdr", nrrd(f"data file: {word}\n")), lambda folder: os.symlink("circle.vol", folder / "circle.vol")))
+    yield Row("5 slices among which a link leads in a circle", SEGMENT.format("slices --voxel-um 10"), 3, "slices/s2.png",
+              both(file("slices/s1.png", b""), lambda folder: os.symlink("s2.png", folder / "slices/s2.png")))
+    yield Row("5 a name too long for a volume", SEGMENT.format("x" * 300 + ".mha"), 3, "cannot be seen")
+
+
 def rows():
+    yield from beside()
     yield from format_strings()
     yield from slice_lists()
     yield from sizes()
