@@ -35,8 +35,8 @@ std::string limit_in_words(const Unseen& unseen);
 /// The part of a gap that is closed, "74 % (61 to 83 %)", or that there is nothing to close.
 std::string in_words(const Shrinkage& shrinkage);
 
-/// What a further measurement is expected to do: "leave 1.4 explanations of 3.2", or, where a set stays as large,
-/// what it does to its probabilities.
+/// What a further measurement is expected to do: "leave 1.4 explanations of 3.2", or, where a set stays as
+/// large, what it does to its probabilities.
 std::string outlook_in_words(const Outlook& with, const Outlook& without);
 
 /// "a, b and c"; of more than `most` that many and "3 more".

@@ -57,12 +57,6 @@ struct Gap {
   /// What runs without an effect leave outside the span of all responses, squared, in units of the noise.
   std::vector<double> outside = {};
   Eigen::MatrixXd believed;  ///< what one standard deviation of each believed input does: a column each
-  /// Columns of `believed` that are readings of the law: nought, but for a share kOtherReading of specimens.
-  std::vector<Eigen::Index> readings = {};
 };
-
-/// Probability that a specimen follows another reading of the law than is believed; how far along is normal,
-/// of a variance that makes that of the whole one.
-constexpr double kOtherReading = 0.25;
 
 }  // namespace pendular::diagnosis

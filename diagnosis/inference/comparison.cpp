@@ -102,10 +102,7 @@ class Learner {
         if (found->powers.size() > 1) add(key + kCurvature, M_SQRT2 * found->powers[1]);
       }
     for (const auto& reading : law_readings())
-      if (const Signature* found = responses.find(reading.id)) {
-        found_.gap.readings.push_back(static_cast<Eigen::Index>(columns.size()));
-        add(reading.name, kReading * found->at(1.0));
-      }
+      if (const Signature* found = responses.find(reading.id)) add(reading.name, kReading * found->at(1.0));
     Eigen::VectorXd stresses(size());
     for (Eigen::Index f = 0; f < size(); ++f)
       stresses[f] = shared_stress_error(found_.observed.features[static_cast<std::size_t>(f)]);
@@ -201,7 +198,6 @@ Gap part_of(const Gap& gap, const std::vector<std::size_t>& features) {
   part.values = gap.values(rows);
   part.covariance = gap.covariance(rows, rows);
   part.believed = gap.believed(rows, Eigen::all);
-  part.readings = gap.readings;
   part.dof = gap.dof;
   return part;
 }

@@ -15,11 +15,11 @@ constexpr int kCells = 81;  // of an effect's range, in which another's nearest 
 
 Weighed none(const ReducedSpace& space, const ReducedGap& gap) {
   const Eigen::Index size = space.size();
-  const auto ways = ways_of(space, Eigen::VectorXd::Zero(size),
-                            {Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)}, 0.0);
-  const WaysFit fitted = fit(space, gap, ways);
-  return {{"none", fitted.log_likelihood, 0.0, {}, fitted.chi_squared},
-          beside_unknown(space, gap, ways, fitted)};
+  const Prediction nothing = space.predict(Eigen::VectorXd::Zero(size),
+                                           {Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)});
+  const Fit fit = space.fit(gap, nothing);
+  return {{"none", fit.log_likelihood, 0.0, {}, fit.chi_squared},
+          beside_unknown(space, gap, nothing, fit.chi_squared)};
 }
 
 /// Something beside none or a single effect.
@@ -133,9 +133,7 @@ std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& sign
 }
 
 Eigen::MatrixXd isolability(const Gap& gap, const std::vector<Signature>& signatures) {
-  Gap whichever = gap;  // reading of the law holds
-  whichever.readings.clear();
-  const ReducedSpace space(whichever, signatures);
+  const ReducedSpace space(gap, signatures);
   const auto size = static_cast<Eigen::Index>(signatures.size());
   Eigen::MatrixXd distance = Eigen::MatrixXd::Zero(size, size + 1);
   std::vector<Signature> reduced;

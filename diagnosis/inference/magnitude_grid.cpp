@@ -1,6 +1,7 @@
 #include "diagnosis/inference/magnitude_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -10,11 +11,15 @@
 namespace pendular::diagnosis {
 namespace {
 
+constexpr double kScales[] = {0.4, 0.63, 1.0, 1.6,
+                              2.5};  // of the standard deviations of a response's own covariance
+constexpr double kScaleWeights[] = {0.1, 0.24, 0.32, 0.24, 0.1};
 constexpr int kCellsOfOne = 41, kCellsOfTwo = 11;  // of each effect's range
 constexpr int kRefined = 3, kParts = 4;            // how often cells at the peak are cut, and into how many
-constexpr double kTogether = 0.15;                 // of their geometric mean, by which two effects do not add
-constexpr double kRunTogether = 0.07;              // likewise, where it was run what they do
-constexpr double kEverywhere = 0.3;                // share of a response's error that has no direction
+constexpr double kUnknownFactors[] = {1.0, 1.5, 2.5, 4.0, 7.0};  // of the noise's standard deviation
+constexpr double kTogether = 0.15;     // of their geometric mean, by which two effects do not add
+constexpr double kRunTogether = 0.07;  // likewise, where it was run what they do
+constexpr double kEverywhere = 0.3;    // share of a response's error that has no direction
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 /// All magnitudes are alike a priori, those below the least one aside.
@@ -34,17 +39,40 @@ Eigen::VectorXd variance_of(const Signature& reduced, const Eigen::VectorXd& res
 
 }  // namespace
 
+double beside_unknown(const ReducedSpace& space, const ReducedGap& gap, const Prediction& prediction,
+                      double chi_squared) {
+  std::vector<double> terms;
+  for (double within : kUnknownFactors)
+    for (double outside : kUnknownFactors)
+      if (within > 1.0 || outside > 1.0)
+        terms.push_back(space.widened(gap, prediction, chi_squared, within, outside));
+  return log_sum(terms) - std::log(static_cast<double>(terms.size()));
+}
+
 struct MagnitudeGrid::Fitted {
   const Place* place;
-  WaysFit ways;
+  double log_likelihood = 0.0;
+  std::array<double, std::size(kScales)> chi_squareds = {};
 
-  double log_weight() const { return place->log_prior + ways.log_likelihood; }
+  double log_weight() const { return place->log_prior + log_likelihood; }
   double log_density() const {
     double density = log_weight();
     for (const auto& cell : place->cells) density -= std::log(cell.width);
     return density;
   }
 };
+
+MagnitudeGrid::Fitted MagnitudeGrid::fit(const Place& place, const ReducedGap& gap) const {
+  Fitted fitted{&place};
+  std::vector<double> terms;
+  for (std::size_t k = 0; k < std::size(kScales); ++k) {
+    const Fit one = space_.fit(gap, place.predictions[k]);
+    fitted.chi_squareds[k] = one.chi_squared;
+    terms.push_back(std::log(kScaleWeights[k]) + one.log_likelihood);
+  }
+  fitted.log_likelihood = log_sum(terms);
+  return fitted;
+}
 
 MagnitudeGrid::MagnitudeGrid(std::vector<Signature> reduced, std::optional<Together> together,
                              const ReducedSpace& space)
@@ -77,12 +105,12 @@ std::vector<MagnitudeGrid::Place> MagnitudeGrid::places_at(const std::vector<std
     double log_prior = 0.0;
     for (std::size_t e = 0; e < cells.size(); ++e)
       log_prior += log_prior_of(reduced_[e], cells[e].theta, cells[e].width);
-    if (log_prior != kNever) places.push_back({cells, log_prior, ways_at(cells)});
+    if (log_prior != kNever) places.push_back({cells, log_prior, predict(cells)});
   }
   return places;
 }
 
-std::vector<Way> MagnitudeGrid::ways_at(const std::vector<Cell>& cells) const {
+std::vector<Prediction> MagnitudeGrid::predict(const std::vector<Cell>& cells) const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(space_.size());
   Eigen::VectorXd product = Eigen::VectorXd::Constant(space_.size(), cells.size() > 1 ? 1.0 : 0.0);
   Errors errors{Eigen::VectorXd::Zero(space_.size()), Eigen::MatrixXd::Zero(space_.size(), space_.size())};
@@ -104,7 +132,14 @@ std::vector<Way> MagnitudeGrid::ways_at(const std::vector<Cell>& cells) const {
   if (together_)
     sum += cells[0].theta / together_->theta_a * cells[1].theta / together_->theta_b * together_->beyond;
   errors.shares += std::pow(together_ ? kRunTogether : kTogether, 2) * product.cwiseAbs();
-  return ways_of(space_, sum, errors, drawn_outside);
+  std::vector<Prediction> found;
+  for (const double scale : kScales) {
+    Errors scaled = errors;
+    scaled.draws *= scale * scale;
+    scaled.outside += scale * scale * drawn_outside;
+    found.push_back(space_.predict(sum, scaled));
+  }
+  return found;
 }
 
 double MagnitudeGrid::evidence_of(const std::vector<Fitted>& fitted) {
@@ -115,7 +150,7 @@ double MagnitudeGrid::evidence_of(const std::vector<Fitted>& fitted) {
 
 double MagnitudeGrid::coarse_evidence(const ReducedGap& gap) const {
   std::vector<Fitted> fitted;
-  for (const auto& place : places_) fitted.push_back({&place, fit(space_, gap, place.ways)});
+  for (const auto& place : places_) fitted.push_back(fit(place, gap));
   return evidence_of(fitted);
 }
 
@@ -123,7 +158,7 @@ Weighed MagnitudeGrid::weigh(const ReducedGap& gap, double least) const {
   std::vector<Fitted> fitted;
   std::deque<std::vector<Place>> finer;  // outlives what points into it
   const auto add = [&](const std::vector<Place>& places) {
-    for (const auto& place : places) fitted.push_back({&place, fit(space_, gap, place.ways)});
+    for (const auto& place : places) fitted.push_back(fit(place, gap));
   };
   add(places_);
   const int rounds = evidence_of(fitted) >= least ? kRefined : 0;
@@ -145,12 +180,14 @@ Weighed MagnitudeGrid::weigh(const ReducedGap& gap, double least) const {
 
   Weighed found;
   Hypothesis& hypothesis = found.hypothesis;
+  hypothesis.chi_squared = std::numeric_limits<double>::infinity();
   std::vector<double> beside = {kNever};
-  double most = kNever;
   for (const auto& one : fitted) {
     if (reduced_.size() == 1)  // pairs have no part in it
-      beside.push_back(one.place->log_prior + beside_unknown(space_, gap, one.place->ways, one.ways));
-    if (one.log_density() > most) most = one.log_density(), hypothesis.chi_squared = one.ways.chi_squared;
+      for (std::size_t k = 0; k < std::size(kScales); ++k)
+        beside.push_back(one.place->log_prior + std::log(kScaleWeights[k]) +
+                         beside_unknown(space_, gap, one.place->predictions[k], one.chi_squareds[k]));
+    hypothesis.chi_squared = std::min(hypothesis.chi_squared, one.chi_squareds[std::size(kScales) / 2]);
   }
   hypothesis.log_evidence = evidence_of(fitted), found.beside_unknown = log_sum(beside);
   for (std::size_t e = 0; e < reduced_.size(); ++e) {

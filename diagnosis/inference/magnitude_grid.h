@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "diagnosis/inference/evidence.h"
-#include "diagnosis/inference/ways.h"
+#include "diagnosis/inference/reduced_space.h"
 
 namespace pendular::diagnosis {
 
@@ -14,6 +14,11 @@ struct Weighed {
   Hypothesis hypothesis;
   double beside_unknown = 0.0;  ///< logarithm of the evidence with wider noise
 };
+
+/// Mean over the widths of the noise within the span and outside it, of which at least one is larger: what is
+/// unknown may look like the known, or like nothing that is known. Logarithm.
+double beside_unknown(const ReducedSpace& space, const ReducedGap& gap, const Prediction& prediction,
+                      double chi_squared);
 
 /// One effect, or two together, over a grid of magnitudes. What each says is worked out once and compared
 /// with any gap; cells are cut finer about the peak, since a field may say a magnitude far better than a grid
@@ -38,14 +43,15 @@ class MagnitudeGrid {
   struct Place {
     std::vector<Cell> cells;
     double log_prior = 0.0;
-    std::vector<Way> ways;
+    std::vector<Prediction> predictions;  // one per scale of the response's own covariance
   };
   struct Fitted;
 
   static std::vector<std::vector<Cell>> parts_of(const std::vector<Cell>& cells, int parts);
   std::vector<Place> places_at(const std::vector<std::vector<Cell>>& all) const;
   static double evidence_of(const std::vector<Fitted>& fitted);
-  std::vector<Way> ways_at(const std::vector<Cell>& cells) const;
+  Fitted fit(const Place& place, const ReducedGap& gap) const;
+  std::vector<Prediction> predict(const std::vector<Cell>& cells) const;
   Magnitude magnitude(std::size_t effect, const std::vector<Fitted>& fitted, double log_evidence) const;
 
   std::vector<Signature> reduced_;

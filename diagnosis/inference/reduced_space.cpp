@@ -35,25 +35,12 @@ double in_fresh_directions(const Eigen::MatrixXd& rows) {
   return sum / static_cast<double>(n * (rows.cols() - n + 1));
 }
 
-/// Covariance of what is neither effect nor another reading of the law.
-Eigen::MatrixXd as_believed(const Gap& gap) {
-  Eigen::MatrixXd inputs = gap.believed;
-  for (const Eigen::Index reading : gap.readings) inputs.col(reading).setZero();
-  return gap.covariance + inputs * inputs.transpose();
-}
-
-/// What other readings of the law do where they hold: a column each, of one standard deviation.
-Eigen::MatrixXd of_other_readings(const Gap& gap) {
-  return gap.believed(Eigen::all, gap.readings) / std::sqrt(kOtherReading);
-}
-
 }  // namespace
 
 ReducedSpace::ReducedSpace(const Gap& gap, const std::vector<Signature>& signatures)
-    : factor_(as_believed(gap)), dof_(gap.dof > 0.0 ? std::min(gap.dof, kMostDof) : 0.0) {
-  const Eigen::MatrixXd readings = of_other_readings(gap);
-  find_directions(signatures, readings);
-  readings_ = directions_.transpose() * factor_.matrixL().solve(readings);
+    : factor_(gap.covariance + gap.believed * gap.believed.transpose()),
+      dof_(gap.dof > 0.0 ? std::min(gap.dof, kMostDof) : 0.0) {
+  find_directions(signatures);
   dimensions_ = static_cast<double>(factor_.rows() - size());
   learn_outside(gap.outside);
   log_chi_ = 0.5 * outside_dof_ * M_LN2 + std::lgamma(0.5 * outside_dof_);
@@ -84,10 +71,8 @@ double ReducedSpace::outside(const Eigen::VectorXd& v) const {
   return std::max(0.0, whiten(v).squaredNorm() - reduced(v).squaredNorm());
 }
 
-Prediction ReducedSpace::predict(const Eigen::VectorXd& response, const Errors& errors,
-                                 bool other_law) const {
+Prediction ReducedSpace::predict(const Eigen::VectorXd& response, const Errors& errors) const {
   Eigen::MatrixXd covariance = errors.draws;
-  if (other_law) covariance += readings_ * readings_.transpose();
   covariance.diagonal() += errors.shares;
   covariance.diagonal().array() += 1.0;
   Prediction prediction{response, Eigen::LLT<Eigen::MatrixXd>(covariance), dof_};
@@ -121,17 +106,15 @@ double ReducedSpace::widened(const ReducedGap& gap, const Prediction& prediction
          log_outside(gap.outside, outside * prediction.widening);
 }
 
-void ReducedSpace::find_directions(const std::vector<Signature>& signatures,
-                                   const Eigen::MatrixXd& readings) {
+void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {
   std::vector<Eigen::VectorXd> columns;
-  const auto add = [&](const Eigen::VectorXd& response) {
-    const double length = response.norm();
-    if (length > 0.0) columns.push_back(response * std::min(1.0, kLongest / length));
-  };
-  for (const auto& reading : readings.colwise()) add(whiten(reading));
   for (const auto& signature : signatures)
     for (const double end : {signature.lowest, signature.highest})
-      for (int k = 1; k <= kSpanned && end != 0.0; ++k) add(whiten(signature.at(end * k / kSpanned)));
+      for (int k = 1; k <= kSpanned && end != 0.0; ++k) {
+        const Eigen::VectorXd response = whiten(signature.at(end * k / kSpanned));
+        const double length = response.norm();
+        if (length > 0.0) columns.push_back(response * std::min(1.0, kLongest / length));
+      }
   const Eigen::Index features = factor_.rows();
   directions_ = Eigen::MatrixXd::Identity(features, features);
   if (columns.empty() || features <= 2) return;

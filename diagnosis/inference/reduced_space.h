@@ -39,8 +39,7 @@ struct Fit {
 };
 
 /// Features in units of their noise, believed inputs included, reduced to the directions that responses of
-/// all effects and other readings of the law span beyond it. What lies outside is kept as one number, its
-/// square.
+/// all effects span beyond it. What lies outside is kept as one number, its square.
 class ReducedSpace {
  public:
   ReducedSpace(const Gap& gap, const std::vector<Signature>& signatures);
@@ -52,11 +51,7 @@ class ReducedSpace {
   /// The square of what is outside the span.
   double outside(const Eigen::VectorXd& v) const;
 
-  /// Under the law as it is believed, or under other readings of it.
-  Prediction predict(const Eigen::VectorXd& response, const Errors& errors, bool other_law = false) const;
-
-  /// Probability of other readings of the law; 0: it has none.
-  double other_law() const { return readings_.cols() > 0 ? kOtherReading : 0.0; }
+  Prediction predict(const Eigen::VectorXd& response, const Errors& errors) const;
 
   /// The density is the multivariate t of Sellentin & Heavens (2016, MNRAS 456, L132).
   Fit fit(const ReducedGap& gap, const Prediction& prediction) const;
@@ -69,13 +64,12 @@ class ReducedSpace {
  private:
   Eigen::VectorXd whiten(const Eigen::VectorXd& v) const { return factor_.matrixL().solve(v); }
   void reduce(Response& response) const;
-  void find_directions(const std::vector<Signature>& signatures, const Eigen::MatrixXd& readings);
+  void find_directions(const std::vector<Signature>& signatures);
   void learn_outside(const std::vector<double>& known);
   double log_outside(double outside, double factor) const;
 
   Eigen::LLT<Eigen::MatrixXd> factor_;
   double dof_;
-  Eigen::MatrixXd readings_;    // what other readings of the law do, reduced: a column each
   Eigen::MatrixXd directions_;  // orthonormal columns in the whitened features
   double dimensions_ = 0.0;     // outside the span
   double outside_scale_ = 1.0, outside_dof_ = 1.0;

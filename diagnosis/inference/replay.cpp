@@ -15,7 +15,6 @@ namespace {
 constexpr double kNegligible = 12.0;  // evidence, as a logarithm, below the best one's
 constexpr int kMoreBaselines = 3;     // draws, over those of other runs
 constexpr std::uint64_t kSeedsOfMember = 1000000;
-constexpr std::uint64_t kCounterOfLaw = 1u << 20;  // beyond those of normal draws
 
 bool is_effect(const std::string& id) {
   const auto& all = effects::all_effects();
@@ -36,24 +35,16 @@ class Errors {
     for (auto& one : drawn) one = normal();
     Eigen::VectorXd errors = root_ * drawn;
     double last = 0.0;
-    const double reading =
-        random_uniform(seed, kCounterOfLaw) < kOtherReading ? 1.0 / std::sqrt(kOtherReading) : 0.0;
     for (std::size_t c = 0; c < comparison_.inputs.size(); ++c) {
       // What is not a line in an input follows the same draw; its column is √2 times as large (compare()).
       const bool squared = comparison_.inputs[c].ends_with(kCurvature);
       last = squared ? last * last * M_SQRT1_2 : normal();
-      errors +=
-          (is_reading(c) ? reading : 1.0) * last * comparison_.gap.believed.col(static_cast<Eigen::Index>(c));
+      errors += last * comparison_.gap.believed.col(static_cast<Eigen::Index>(c));
     }
     return errors;
   }
 
  private:
-  bool is_reading(std::size_t input) const {
-    const auto& readings = comparison_.gap.readings;
-    return std::find(readings.begin(), readings.end(), static_cast<Eigen::Index>(input)) != readings.end();
-  }
-
   const Comparison& comparison_;
   Eigen::MatrixXd root_;
 };

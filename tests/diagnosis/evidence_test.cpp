@@ -159,26 +159,6 @@ TEST(Evidence, WhatABelievedInputCanAbsorbIsNoEffect) {
   EXPECT_EQ(weigh(gap, all).front().id, "none");
 }
 
-TEST(Evidence, AnotherReadingOfTheLawIsAShareOfItsOwn) {
-  // One feature of 3 and a reading of the law of one standard deviation 2: three quarters N(3; 0, 1), a
-  // quarter N(3; 0, 1 + 4 · 4).
-  Signature s = effects(1, 1.0).front();
-  s.powers = {Eigen::VectorXd::Constant(1, 1.0)};
-  Gap gap = {Eigen::VectorXd::Constant(1, 3.0),
-             Eigen::MatrixXd::Constant(1, 1, 1.0),
-             0.0,
-             {},
-             Eigen::MatrixXd::Constant(1, 1, 2.0)};
-  gap.readings = {0};
-  const auto normal = [](double variance) {
-    return std::exp(-4.5 / variance) / std::sqrt(2.0 * M_PI * variance);
-  };
-  for (const auto& h : weigh(gap, {s}))
-    if (h.id == "none") {
-      EXPECT_NEAR(h.log_evidence, std::log(0.75 * normal(1.0) + 0.25 * normal(17.0)), 1e-9);
-    }
-}
-
 TEST(Evidence, UnknownMayDoWhatAPairDoes) {
   const auto all = effects(4, 12.0);
   const Gap gap = gap_of(all[0].at(1.0) + all[1].at(1.0));
