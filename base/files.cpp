@@ -191,7 +191,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> found;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error))
-    if (is_file(entry.path())) found.push_back(entry.path());
+    if (entry.is_regular_file(error)) found.push_back(entry.path());
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -202,8 +202,8 @@ void require_outputs(const std::vector<fs::path>& outputs) {
   for (const auto& path : outputs) {
     if (path.empty()) continue;
     require_no_input(path);
-    std::error_code ignored;
-    const bool new_name = names.insert(fs::weakly_canonical(path, ignored)).second;
+    is_there(path);  // a circle of links has no canonical name
+    const bool new_name = names.insert(fs::weakly_canonical(path)).second;
     const auto identity = identity_of(path);
     if (!new_name || (identity && !there.insert(*identity).second))
       throw BadUsage(
