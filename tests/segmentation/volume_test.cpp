@@ -161,7 +161,8 @@ TEST(Volume, BadPhoenixFilesAreNamed) {
   write_text(folder / "a.pcr", pcr("5"));
   EXPECT_NE(error_of(folder / "a.pcr").find("a.vol"), std::string::npos);  // not there
   const std::string name = "beads_rec.vol";
-  write_text(folder / "long.pcr", pcr("5").replace(pcr("5").find(name), name.size(), 300, 'x'));
+  const std::string part(180, 'x');  // lines end after 200 characters; an indented one goes on
+  write_text(folder / "long.pcr", pcr("5").replace(pcr("5").find(name), name.size(), part + "\n " + part));
   EXPECT_NE(error_of(folder / "long.pcr").find("cannot be seen: File name too long"), std::string::npos);
   write_bytes(folder / "a.vol", "too short");
   EXPECT_NE(error_of(folder / "a.pcr").find("expected 120"), std::string::npos) << error_of(folder / "a.pcr");
