@@ -22,33 +22,28 @@ Weighed none(const ReducedSpace& space, const ReducedGap& gap) {
           beside_unknown(space, gap, nothing, fit.chi_squared)};
 }
 
-/// Something beside none or a single effect.
-Hypothesis unknown(const std::vector<Weighed>& known) {
-  std::vector<double> beside;
-  for (const auto& one : known) beside.push_back(one.beside_unknown);
+/// Something beside what is known, or, by chance, something that does what a known effect would.
+Hypothesis unknown(const std::vector<Weighed>& known, double like_known) {
+  std::vector<double> beside, like;
+  for (const auto& one : known) {
+    beside.push_back(one.beside_unknown);
+    if (one.hypothesis.magnitudes.size() == 1) like.push_back(one.hypothesis.log_evidence);
+  }
+  const auto mean = [](const std::vector<double>& terms) {
+    return log_sum(terms) - std::log(static_cast<double>(terms.size()));
+  };
+  const double other = mean(beside);
+  if (like.empty()) return {"unknown", other, 0.0, {}, known.front().hypothesis.chi_squared};
   return {"unknown",
-          log_sum(beside) - std::log(static_cast<double>(beside.size())),
+          log_sum({other + std::log(1.0 - like_known), mean(like) + std::log(like_known)}),
           0.0,
           {},
           known.front().hypothesis.chi_squared};
 }
 
-using Prior = std::function<double(const Hypothesis&)>;
-
-/// To `unknown`, the first of all, what by chance does what a known effect or a pair would.
-void add_like_known(std::vector<Hypothesis>& hypotheses, const Priors& priors, const Prior& prior) {
-  std::vector<double> like;
-  for (const auto& h : hypotheses)
-    if (!h.magnitudes.empty()) like.push_back(h.log_evidence + std::log(prior(h)));
-  if (like.empty()) return;
-  double& unknown = hypotheses.front().log_evidence;
-  unknown =
-      log_sum({unknown + std::log(1.0 - priors.like_known),
-               log_sum(like) - std::log(1.0 - priors.none - priors.unknown) + std::log(priors.like_known)});
-}
-
 /// Evidences times priors, made to sum to one; most probable first.
-void make_probabilities(std::vector<Hypothesis>& hypotheses, const Prior& prior) {
+void make_probabilities(std::vector<Hypothesis>& hypotheses,
+                        const std::function<double(const Hypothesis&)>& prior) {
   std::vector<double> log_weight;
   for (const auto& h : hypotheses) log_weight.push_back(h.log_evidence + std::log(prior(h)));
   const double total = log_sum(log_weight);
@@ -89,7 +84,7 @@ std::vector<Hypothesis> Weigher::of_singles(const ReducedGap& gap, double neglig
   double best = known.front().hypothesis.log_evidence;
   for (const auto& one : singles_) best = std::max(best, one.coarse_evidence(gap));
   for (const auto& one : singles_) known.push_back(one.weigh(gap, best - negligible));
-  std::vector<Hypothesis> all = {unknown(known)};
+  std::vector<Hypothesis> all = {unknown(known, priors_.like_known)};
   for (auto& one : known) all.push_back(std::move(one.hypothesis));
   return all;
 }
@@ -107,16 +102,13 @@ std::vector<std::vector<Hypothesis>> Weigher::operator()(const std::vector<Eigen
   }
   const double effects = static_cast<double>(singles_.size());
   const double pairs = effects > 1.0 ? priors_.pairs : 0.0;
-  const auto prior = [&](const Hypothesis& h) {
-    if (h.id == "none") return priors_.none;
-    if (h.id == "unknown") return priors_.unknown;
-    if (h.magnitudes.size() == 2) return pairs / (0.5 * effects * (effects - 1.0));
-    return (1.0 - priors_.none - priors_.unknown - pairs) / effects;
-  };
-  for (auto& hypotheses : all) {
-    add_like_known(hypotheses, priors_, prior);
-    make_probabilities(hypotheses, prior);
-  }
+  for (auto& hypotheses : all)
+    make_probabilities(hypotheses, [&](const Hypothesis& h) {
+      if (h.id == "none") return priors_.none;
+      if (h.id == "unknown") return priors_.unknown;
+      if (h.magnitudes.size() == 2) return pairs / (0.5 * effects * (effects - 1.0));
+      return (1.0 - priors_.none - priors_.unknown - pairs) / effects;
+    });
   return all;
 }
 

@@ -29,7 +29,7 @@ class Weigher {
   const ReducedSpace& space() const { return space_; }
 
  private:
-  /// Unknown beside them, none and single effects, before probabilities.
+  /// Unknown, none and single effects, before probabilities.
   std::vector<Hypothesis> of_singles(const ReducedGap& gap, double negligible) const;
 
   struct Pair {

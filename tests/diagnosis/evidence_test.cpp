@@ -159,20 +159,6 @@ TEST(Evidence, WhatABelievedInputCanAbsorbIsNoEffect) {
   EXPECT_EQ(weigh(gap, all).front().id, "none");
 }
 
-TEST(Evidence, UnknownMayDoWhatAPairDoes) {
-  const auto all = effects(4, 12.0);
-  const Gap gap = gap_of(all[0].at(1.0) + all[1].at(1.0));
-  const std::vector<Together> run = {{"a", "b", 1.0, 1.0, Eigen::VectorXd::Zero(kFeatures)}};
-  Priors priors;
-  const auto ratio = [&](double like_known) {
-    priors.like_known = like_known;
-    const auto found = weigh(gap, all, run, priors, Pairs::run);
-    return probability(found, "unknown") / probability(found, "a+b");
-  };
-  // Of the prior of `unknown` over that of effects and pairs.
-  EXPECT_NEAR(ratio(0.5) - ratio(1e-6), 0.5 * priors.unknown / (1.0 - priors.none - priors.unknown), 0.02);
-}
-
 TEST(Evidence, AnEstimatedCovarianceIsTrustedLess) {
   // The same gap of four noises: with six degrees of freedom it is less of a surprise than with many.
   Gap gap = gap_of(Eigen::VectorXd::Constant(kFeatures, 1.5));
