@@ -12,14 +12,14 @@
 #include "diagnosis/inference/leading.h"
 #include "diagnosis/repair/experiment_places.h"
 #include "diagnosis/repair/shrinkage.h"
+#include "diagnosis/thresholds.h"
 #include "diagnosis/verdict.h"
 #include "diagnosis/words.h"
 
 namespace pendular::diagnosis {
 namespace {
 
-constexpr int kRounds = 3;              // of runs at the leading explanations
-constexpr double kContradiction = 4.0;  // sigma between two measurements of one thing
+constexpr int kRounds = 3;  // of runs at the leading explanations
 
 /// The problem as the bank shows it once nothing new leads, or nothing more may be run.
 Problem followed_problem(const Experiment& experiment, const fs::path& beads_folder, const Rules& rules,
@@ -69,7 +69,7 @@ void warn_of_contradictions(const Experiment& experiment, const BankPlan& plan, 
         const double apart = values[static_cast<Eigen::Index>(a)] - values[static_cast<Eigen::Index>(b)];
         const double sigma =
             std::hypot(std::hypot(all.sigma(a), all.sigma(b)), all.features[a].logarithm ? 0.02 : 1e-3);
-        if (std::fabs(apart) > kContradiction * sigma)
+        if (std::fabs(apart) > kThresholds.contradiction * sigma)
           diagnosis.warnings.push_back(
               fmt::format("{} and {} are of one specimen and test but differ in {} by {:.1f} sigma: they "
                           "contradict each other",

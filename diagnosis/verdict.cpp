@@ -7,12 +7,12 @@
 #include <map>
 
 #include "base/quantity.h"
+#include "diagnosis/thresholds.h"
 #include "diagnosis/words.h"
 
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kLikely = 0.5;     // probability from which a cause is named
 constexpr std::size_t kListed = 3;  // names in a row; the report has all
 
 /// The members of the set beside the most probable one.
@@ -38,7 +38,7 @@ std::string cause(const Diagnosis& diagnosis) {
     return fmt::format("The cause is not known: no effect of the library explains the gap, probability {}{}.",
                        probability, rest.empty() ? "" : "; not excluded: " + joined(rest, kListed));
   if (rest.empty()) return fmt::format("The cause is {}, probability {}.", in_words(best), probability);
-  if (best.probability >= kLikely)
+  if (best.probability >= kThresholds.likely)
     return fmt::format("The most probable cause is {}, probability {}; not excluded: {}.", in_words(best),
                        probability, joined(rest, kListed));
   return fmt::format(

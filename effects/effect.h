@@ -111,6 +111,8 @@ struct Effect {
   std::size_t memory = 0;
   /// What the instruments make of the rows.
   std::function<void(std::vector<CurveRow>& rows, const Gauge& gauge, double theta)> rows = nullptr;
+  /// Lengths that scans measure, over the true ones.
+  std::function<double(double theta)> lengths = nullptr;
 
   /// The same as `evolution` of all standing bonds at once, sorted by their number, after that of single
   /// ones.

@@ -26,6 +26,10 @@ void truth(Packing& packing, double theta, const Draws&) {
   scale(packing, 1.0 / (1.0 + theta));
 }
 
+double lengths(double theta) {
+  return 1.0 + theta;
+}
+
 void rows(std::vector<CurveRow>& rows, const Gauge&, double theta) {
   for (auto& row : rows) {
     row.strain /= 1.0 + theta;
@@ -54,7 +58,8 @@ Effect voxel_scale() {
           .settled_by = calibration_sphere(),
           .sample = sample,
           .truth = truth,
-          .rows = rows};
+          .rows = rows,
+          .lengths = lengths};
 }
 
 }  // namespace pendular::effects

@@ -17,6 +17,7 @@
 #include "diagnosis/experiment/further_measurements.h"
 #include "diagnosis/inference/calibration.h"
 #include "diagnosis/inference/judgement.h"
+#include "diagnosis/thresholds.h"
 #include "effects/list.h"
 #include "sweep/store.h"
 
@@ -72,8 +73,8 @@ class Bench {
     const AmbiguitySet set = set_of(said, correction);
     Question question;
     for (const auto& h : said) {
-      const bool in =
-          h.probability >= kInQuestion || std::find(set.ids.begin(), set.ids.end(), h.id) != set.ids.end();
+      const bool in = h.probability >= kThresholds.in_question ||
+                      std::find(set.ids.begin(), set.ids.end(), h.id) != set.ids.end();
       if (!in || h.id == "unknown") continue;
       question.probabilities[h.id] = h.probability;
       if (h.id == "none") continue;

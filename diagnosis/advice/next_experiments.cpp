@@ -10,6 +10,7 @@
 #include "diagnosis/bank/design.h"
 #include "diagnosis/experiment/further_measurements.h"
 #include "diagnosis/inference/calibration.h"
+#include "diagnosis/thresholds.h"
 #include "effects/list.h"
 
 namespace pendular::diagnosis {
@@ -18,7 +19,6 @@ namespace {
 constexpr double kSpacing = 1.0 / 6.0;  // of magnitudes in a bank, over its largest
 constexpr double kOfInterval = 3.29;    // standard deviations in an interval of 90 %
 constexpr double kRound = 0.5;          // cost of another round, whatever is measured in it
-constexpr double kGain = 0.02;          // bits below which nothing is gained
 constexpr double kCases = 240.0;        // replayed at least
 
 bool same(const Condition& a, const Condition& b) {
@@ -166,7 +166,8 @@ Question question_after(const Diagnosis& diagnosis) {
   Question question;
   const auto& set = diagnosis.ambiguity_set;
   for (const auto& e : diagnosis.explanations) {
-    const bool in = e.probability >= kInQuestion || std::find(set.begin(), set.end(), e.id) != set.end();
+    const bool in =
+        e.probability >= kThresholds.in_question || std::find(set.begin(), set.end(), e.id) != set.end();
     if (!in || e.excluded || e.id == "unknown") continue;
     if (e.id == "none") question.probabilities["none"] = e.probability;
     for (const auto& id : effects_in(e.id)) question.effects.insert(id);
@@ -215,7 +216,7 @@ NextSteps next_steps(const BankInHand& bank, const Question& question, std::vect
       continue;
     }
     next.gain = next.outlook.cases > 0 ? steps.now.entropy - next.outlook.entropy : 0.0;
-    if (next.runs > 0 || next.gain > kGain) steps.experiments.push_back(std::move(next));
+    if (next.runs > 0 || next.gain > kThresholds.gain) steps.experiments.push_back(std::move(next));
   }
   std::stable_sort(steps.experiments.begin(), steps.experiments.end(), better);
   return steps;

@@ -11,9 +11,6 @@
 
 namespace pendular::diagnosis {
 
-/// Explanations from this probability on are in question, beside those of the set.
-inline constexpr double kInQuestion = 0.02;
-
 /// What is in question, and how likely each answer is.
 struct Question {
   std::set<std::string> effects;                ///< the library that is left

@@ -8,6 +8,7 @@
 #include "diagnosis/bank/law_readings.h"
 #include "diagnosis/experiment/believed.h"
 #include "diagnosis/experiment/specimens.h"
+#include "diagnosis/thresholds.h"
 #include "effects/list.h"
 
 namespace pendular::diagnosis {
@@ -19,8 +20,6 @@ constexpr int kFiner = 2;                      // magnitudes of effects that do 
 constexpr int kMoreOfScans = 2;  // members and draws of tests that end at a scan, over those of others
 constexpr int kOfALaw = 4;       // members that are run with the other reading of a law
 constexpr double kMostBeads = 2000.0, kBankBeads = 1500.0;
-constexpr double kAbout = 1.5;  // of a magnitude that beads show, the largest in the bank
-constexpr double kModulusShare = 0.05, kFractionSd = 0.01;  // of believed inputs of which nothing is stated
 
 const SampleKey& key_of(const std::string& name) {
   static const std::vector<SampleKey> keys = sample_keys();
@@ -36,13 +35,15 @@ double moved(const Experiment& experiment, const Sample& sample, const std::stri
 }
 
 /// Magnitudes of an effect in the bank: about what the measured beads themselves show of it, where they do.
-std::vector<double> magnitudes_of(const effects::Effect& effect, int levels, const Experiment& experiment) {
+std::vector<double> magnitudes_of(const effects::Effect& effect, int levels, const Experiment& experiment,
+                                  bool scanned) {
   std::vector<double> found;
   if (const auto shown = experiment.contacts && effect.shown_by_beads
                              ? effect.shown_by_beads(*experiment.contacts)
                              : std::nullopt) {
     for (int k = 1; k <= levels; ++k)
-      found.push_back(std::clamp(kAbout * k / levels * *shown, effect.lowest, effect.highest));
+      found.push_back(
+          std::clamp(kThresholds.about_shown * k / levels * *shown, effect.lowest, effect.highest));
     return found;
   }
   const bool both = effect.bank_from < 0.0 && effect.bank_to > 0.0;
@@ -52,6 +53,8 @@ std::vector<double> magnitudes_of(const effects::Effect& effect, int levels, con
     if (both && (k == count || levels > 2)) found.push_back(share * effect.bank_from);
     found.push_back(share * (effect.bank_to != 0.0 ? effect.bank_to : effect.bank_from));
   }
+  if (scanned && !both)
+    found.push_back(kThresholds.low_magnitude * (effect.bank_to != 0.0 ? effect.bank_to : effect.bank_from));
   return found;
 }
 
@@ -116,7 +119,7 @@ class Planner {
     const int draws = effect.draws ? kDraws : 1;
     int turn = 0;
     const int levels = effect.draws ? options_.levels : kFiner * options_.levels;
-    for (double theta : magnitudes_of(effect, levels, experiment_))
+    for (double theta : magnitudes_of(effect, levels, experiment_, scanned))
       for (int draw = 0; draw < (effect.draws && scanned ? kMoreOfScans : 1) * draws; ++draw) {
         const int member = 1 + turn++ % members_;
         add({member,
@@ -158,10 +161,11 @@ Sample changed_condition(const Experiment& experiment, const Condition& conditio
 std::map<std::string, double> floating_inputs(const Experiment& experiment) {
   auto inputs = experiment.uncertainty;
   const std::string modulus = "bridges.youngs_modulus_pa", fraction = "specimen.volume_fraction";
-  if (!inputs.contains(modulus)) inputs[modulus] = kModulusShare * sample_key(experiment.sample, modulus);
+  if (!inputs.contains(modulus))
+    inputs[modulus] = kThresholds.modulus_share * sample_key(experiment.sample, modulus);
   const bool generated = std::any_of(experiment.observations.begin(), experiment.observations.end(),
                                      [](const Observation& o) { return o.beads.empty() && o.has("strain"); });
-  if (generated && !inputs.contains(fraction)) inputs[fraction] = kFractionSd;
+  if (generated && !inputs.contains(fraction)) inputs[fraction] = kThresholds.fraction_sd;
   return inputs;
 }
 

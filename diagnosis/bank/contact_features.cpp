@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "diagnosis/thresholds.h"
 #include "effects/list.h"
 
 namespace pendular::diagnosis {
@@ -9,8 +10,6 @@ namespace {
 
 constexpr double kUm = 1e6;
 constexpr const char* kBeads = "beads";
-constexpr double kFlank = 0.15;  // share of a measured variance
-constexpr double kStated = 0.3;  // what stated variances may be off by
 
 }  // namespace
 
@@ -21,10 +20,10 @@ std::vector<ContactFeature> contact_features(const ContactPeak& peak) {
        std::hypot(kTouchingGap * diameter, kUm * peak.sigma_position())}};
   // The flank of pairs that are apart hides part of a wide peak.
   if (stated > 0.0)
-    features.push_back(
-        {{kBeads, "contact_variance_um2", Scale::network, false, scatter * scatter},
-         std::hypot(std::hypot(std::pow(kTouchingScatter * diameter, 2), kStated * stated * stated),
-                    kFlank * scatter * scatter)});
+    features.push_back({{kBeads, "contact_variance_um2", Scale::network, false, scatter * scatter},
+                        std::hypot(std::hypot(std::pow(kTouchingScatter * diameter, 2),
+                                              kThresholds.stated_variance * stated * stated),
+                                   kThresholds.flank * scatter * scatter)});
   return features;
 }
 

@@ -8,12 +8,12 @@
 
 #include "base/error.h"
 #include "diagnosis/bank/mean_row.h"
+#include "diagnosis/thresholds.h"
 #include "effects/list.h"
 
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kShown = 0.8;                    // of runs that must show a feature
 constexpr int kReadLevels = 6, kReadMembers = 3;  // of effects that only change what instruments read
 constexpr unsigned long kSeedOfHeld =
     100000;  // of the noise in fields of runs that are taken for experiments
@@ -100,7 +100,7 @@ BankFeatures::Learnt BankFeatures::learn(std::vector<std::string>& warnings, int
     for (std::size_t k = 0; k < points_.size(); ++k)
       if (points_[k].whole != scaled_ && !points_[k].scans_only && points_[k].member != but)
         ++asked, shown += std::isfinite(values[k][at]);
-    if (std::isfinite(mean[at]) && shown >= kShown * asked)
+    if (std::isfinite(mean[at]) && shown >= kThresholds.shown_by * asked)
       kept.push_back(f);
     else if (observed.level == Level::landmarks)
       warnings.push_back(fmt::format("{}: {} was observed but only {} of {} simulations show it; not used",
@@ -163,7 +163,7 @@ std::pair<BankPlan, std::vector<SimulatedTests>> with_readings(const BankPlan& p
   for (const auto& effect : effects::all_effects()) {
     if (!effect.reads_only() || plan.absent.contains(effect.id)) continue;
     for (int level = 1; level <= kReadLevels; ++level) {
-      const double theta = kBeyondBank * effect.bank_to * level / kReadLevels;
+      const double theta = kThresholds.beyond_bank * effect.bank_to * level / kReadLevels;
       for (std::size_t k = 0; k < plan.points.size(); ++k) {
         DesignPoint point = plan.points[k];
         if (!point.id.empty() || point.whole == plan.scaled() || point.member > kReadMembers) continue;

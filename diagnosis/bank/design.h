@@ -60,7 +60,4 @@ class BankFeatures {
 std::pair<BankPlan, std::vector<SimulatedTests>> with_readings(const BankPlan& plan,
                                                                const std::vector<SimulatedTests>& tests);
 
-/// Of a bank's range, beyond which an effect may go.
-inline constexpr double kBeyondBank = 1.15;
-
 }  // namespace pendular::diagnosis

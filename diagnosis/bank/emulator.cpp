@@ -5,20 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
 #include "base/quantile.h"
 #include "diagnosis/bank/mean_row.h"
+#include "diagnosis/thresholds.h"
 
 namespace pendular::diagnosis {
 namespace {
 
 constexpr int kDegree = 2, kExactDegree = 4;
-constexpr double kLeastRoom = 0.15;  // that a fit leaves a residual, of its variance
-constexpr double kOutlier = 3.0, kOfMedian = 1.4826;
-constexpr double kOfTheFit = 0.35;  // the fit's own variance over the scatter's
-constexpr double kDrawn = 0.35;     // share of a covariance that goes to its diagonal
+constexpr std::size_t kLevelsOfEarly = 4, kRunsOfEarly = 6;  // that tell what comes early from a quadratic
+constexpr double kGrowths[] = {0.5, 1.0, 1.5, 2.0};
+constexpr double kOfMedian = 1.4826;
 
 /// Runs of one id, less the baselines of their members.
 struct Group {
@@ -32,10 +33,11 @@ struct Group {
     for (double one : theta) most = std::max(most, std::fabs(one));
     return most;
   }
-  int degree() const {
-    const auto levels = std::set<double>(theta.begin(), theta.end()).size();
-    return levels < 2 ? 1 : exact && levels > kExactDegree ? kExactDegree : kDegree;
-  }
+  std::size_t levels() const { return std::set<double>(theta.begin(), theta.end()).size(); }
+  int degree() const { return levels() < 2 ? 1 : exact && levels() > kExactDegree ? kExactDegree : kDegree; }
+  bool comes_early() const { return !exact && levels() >= kLevelsOfEarly && theta.size() >= kRunsOfEarly; }
+  int parameters() const { return degree() + (comes_early() ? 1 : 0); }
+  double share(std::size_t run) const { return std::fabs(theta[run]) / scale(); }
 };
 
 void take_baselines(const std::vector<DesignRun>& runs, Eigen::Index features, Responses& responses) {
@@ -93,12 +95,16 @@ Response fit_group(const Group& group, Eigen::Index features, Residuals& left) {
   const auto runs = static_cast<Eigen::Index>(group.theta.size());
   const int degree = group.degree();
   const double scale = group.scale();
-  Eigen::MatrixXd matrix(runs, degree);
-  for (Eigen::Index r = 0; r < runs; ++r)
-    for (int n = 0; n < degree; ++n)
-      matrix(r, n) = std::pow(group.theta[static_cast<std::size_t>(r)] / scale, n + 1);
+  Eigen::MatrixXd matrix(runs, group.parameters());
+  for (Eigen::Index r = 0; r < runs; ++r) {
+    const auto run = static_cast<std::size_t>(r);
+    for (int n = 0; n < degree; ++n) matrix(r, n) = std::pow(group.theta[run] / scale, n + 1);
+    if (group.comes_early()) matrix(r, degree) = std::log1p(group.share(run) / kThresholds.early_at);
+  }
   Response response;
   response.powers.assign(static_cast<std::size_t>(degree), Eigen::VectorXd::Zero(features));
+  if (group.comes_early())
+    response.early = Eigen::VectorXd::Zero(features), response.early_at = kThresholds.early_at * scale;
   left.scaled = Eigen::MatrixXd::Constant(runs, features, std::nan(""));
   left.missed = left.scaled;
   for (Eigen::Index f = 0; f < features; ++f) {
@@ -115,10 +121,11 @@ Response fit_group(const Group& group, Eigen::Index features, Residuals& left) {
     const Eigen::MatrixXd inverse = solver.pseudoInverse();
     for (int n = 0; n < degree; ++n)
       response.powers[static_cast<std::size_t>(n)][f] = found[n] / std::pow(scale, n + 1);
+    if (group.comes_early()) response.early[f] = found[degree];
     const Eigen::VectorXd residual = values - shown * found;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const auto at = static_cast<Eigen::Index>(r);
-      const double room = std::max(kLeastRoom, 1.0 - shown.row(at).dot(inverse.col(at)));
+      const double room = std::max(kThresholds.least_room, 1.0 - shown.row(at).dot(inverse.col(at)));
       left.scaled(rows[r], f) = residual[at] / std::sqrt(room);
       left.missed(rows[r], f) = residual[at] / room;
     }
@@ -133,7 +140,7 @@ void draw_in_outliers(Eigen::MatrixXd& left) {
     for (const double one : left.col(f))
       if (std::isfinite(one)) sizes.push_back(std::fabs(one));
     if (sizes.empty()) continue;
-    const double most = kOutlier * kOfMedian * median(sizes);
+    const double most = kThresholds.outlier * kOfMedian * median(sizes);
     for (double& one : left.col(f))
       if (std::isfinite(one)) one = std::clamp(one, -most, most);
   }
@@ -149,32 +156,58 @@ Eigen::MatrixXd stacked(const std::vector<Eigen::MatrixXd>& blocks, Eigen::Index
 }
 
 Eigen::MatrixXd shrunk(const Eigen::MatrixXd& covariance) {
-  Eigen::MatrixXd drawn = (1.0 - kDrawn) * covariance;
+  Eigen::MatrixXd drawn = (1.0 - kThresholds.to_diagonal) * covariance;
   drawn.diagonal() = covariance.diagonal();
   return positive_part(drawn);
 }
 
-/// Weighs residuals so that their mean square is the least-squares slope of their squares over θ², at the
-/// largest θ: what draws differ by grows with θ, the scatter does not. Returns the scatter's part of it.
-double growth(const Group& group, Eigen::MatrixXd& missed) {
+/// The power of θ with which squares beyond the scatter grow: the likeliest of some, for the mean squares of
+/// runs, in units of the scatter.
+double growth_of(const Group& group, const Eigen::MatrixXd& missed, const Eigen::MatrixXd& scatter) {
+  if (!group.comes_early()) return 2.0;
+  std::vector<double> squares;
+  for (const auto& row : missed.rowwise()) {
+    const Eigen::ArrayXd relative = row.transpose().array().square() / scatter.diagonal().array().max(1e-12);
+    const auto shown = relative.isFinite();
+    squares.push_back(shown.select(relative, 0.0).sum() /
+                      std::max<double>(1.0, static_cast<double>(shown.count())));
+  }
+  double best = -std::numeric_limits<double>::infinity(), found = 2.0;
+  for (const double growth : kGrowths)
+    for (double drawn = 0.01; drawn < 1e5; drawn *= 1.5) {  // over the scatter, at the largest θ
+      double log_likelihood = 0.0;
+      for (std::size_t r = 0; r < squares.size(); ++r) {
+        const double expected = 1.0 + drawn * std::pow(group.share(r), growth);
+        log_likelihood -= std::log(expected) + squares[r] / expected;
+      }
+      if (log_likelihood > best) best = log_likelihood, found = growth;
+    }
+  return found;
+}
+
+/// Weighs residuals so that their mean square is the least-squares slope of their squares over θ to that
+/// power, at the largest θ: what draws differ by grows with θ, the scatter does not. Returns the scatter's
+/// part of it.
+double weigh_by_growth(const Group& group, double growth, Eigen::MatrixXd& missed) {
   const auto runs = static_cast<double>(group.theta.size());
-  double squares = 0.0, fourths = 0.0;
-  for (const double theta : group.theta) {
-    const double share = std::pow(theta / group.scale(), 2);
-    squares += share / runs, fourths += share * share / runs;
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t r = 0; r < group.theta.size(); ++r) {
+    const double grown = std::pow(group.share(r), growth);
+    sum += grown / runs, squares += grown * grown / runs;
   }
   for (Eigen::Index r = 0; r < missed.rows(); ++r)
-    missed.row(r) *= std::fabs(group.theta[static_cast<std::size_t>(r)]) / group.scale() / std::sqrt(fourths);
-  return squares / fourths;
+    missed.row(r) *= std::sqrt(std::pow(group.share(static_cast<std::size_t>(r)), growth) / squares);
+  return sum / squares;
 }
 
 /// The response's own covariance: of that by which runs are missed, beyond the scatter.
 void set_draws(const Group& group, Eigen::MatrixXd& missed, const Eigen::MatrixXd& scatter,
                Response& response) {
-  const double scattered = growth(group, missed);
+  response.growth = growth_of(group, missed, scatter);
+  const double scattered = weigh_by_growth(group, response.growth, missed);
   response.drawn_at = group.scale();
   response.draws = positive_part(pairwise(missed, 0.0) - scattered * scatter);
-  response.drawn_dof = std::max(2.0, static_cast<double>(group.theta.size()) - group.degree());
+  response.drawn_dof = std::max(2.0, static_cast<double>(group.theta.size()) - group.parameters());
   std::vector<Eigen::Index> complete;
   for (Eigen::Index r = 0; r < missed.rows(); ++r)
     if (missed.row(r).allFinite()) complete.push_back(r);
@@ -221,7 +254,7 @@ Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index feature
     fits.push_back(fit_group(groups[g], features, left[g]));
     if (groups[g].draws || groups[g].exact) continue;
     scatter.push_back(left[g].scaled);
-    parameters += groups[g].degree();
+    parameters += groups[g].parameters();
   }
   Eigen::MatrixXd all = stacked(scatter, features);
   responses.dof = std::max(1.0, static_cast<double>(all.rows()) - parameters);
@@ -238,7 +271,7 @@ Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index feature
 Scatter scatter_of(const Responses& responses) {
   const double members = static_cast<double>(responses.members.size());
   const Eigen::MatrixXd between = (1.0 + 1.0 / members) * responses.between;
-  const Eigen::MatrixXd within = kOfTheFit * responses.within;
+  const Eigen::MatrixXd within = kThresholds.fit_share * responses.within;
   Scatter scatter;
   scatter.covariance = shrunk(between + within);
   const Eigen::VectorXd diagonal = scatter.covariance.diagonal().cwiseMax(1e-12);

@@ -36,10 +36,12 @@ struct Responses {
 };
 
 /// Each run less the baseline of its member (the members' mean where that failed), fitted by a quadratic in θ
-/// for an id with two or more magnitudes, by a line for one with one; for each sign by itself where runs say
-/// so. What ids that do not draw leave is the scatter; that by which a fit without it misses a run, beyond
-/// the scatter, is the response's own covariance (Response::draws). Covariances are over the runs that show
-/// both features. Runs that a polynomial cannot follow count no more than three median deviations.
+/// for an id with two or more magnitudes, with a logarithm beside it (Response) from four magnitudes and six
+/// runs on, by a line for one with one; for each sign by itself where runs say so. What ids that do not draw
+/// leave is the scatter; that by which a fit without it misses a run, beyond the scatter, is the response's
+/// own covariance (Response::draws), which grows with the likeliest of some powers of θ. Covariances are over
+/// the runs that show both features. Runs that a fit cannot follow count no more than three median
+/// deviations.
 Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index features);
 
 /// Covariance of an observed specimen about the mean of the simulated ones, (1 + 1/R) of what lies between R

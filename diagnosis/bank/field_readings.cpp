@@ -7,17 +7,13 @@
 #include <set>
 
 #include "diagnosis/kinds/kind.h"
+#include "diagnosis/thresholds.h"
 #include "packing/tables.h"
 
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kStatedError = 0.2;         // of stated standard errors
-constexpr double kModelShare = 0.15;         // of what members scatter by
-constexpr double kModelFloor = 0.02;         // of a reading
 constexpr unsigned long kSeedOfRuns = 1000;  // of their noise
-constexpr double kUnstatedSigma =
-    1e-3;  // of displacements, over the beads' diameter, where nothing is stated
 
 /// The beads of an observation's scans, one after the other, in the order of its field.
 std::vector<FollowedBeads> followed_in(const Experiment& experiment, const Observation& observation) {
@@ -39,7 +35,8 @@ std::vector<FollowedBeads> followed_in(const Experiment& experiment, const Obser
           observation.has("sigma_um") ? observation.column("sigma_um")[k] : M_SQRT2 * 1e6 * bead.sigma_centre;
     }
     followed.sigma_um = stated / static_cast<double>(followed.beads.size());
-    if (!(followed.sigma_um > 0.0)) followed.sigma_um = kUnstatedSigma * 1e6 * sample.beads.diameter;
+    if (!(followed.sigma_um > 0.0))
+      followed.sigma_um = kThresholds.unstated_sigma * 1e6 * sample.beads.diameter;
     scans.push_back(std::move(followed));
   }
   return scans;
@@ -140,8 +137,8 @@ Eigen::VectorXd FieldReader::by_noise(const FieldBank& bank, const std::vector<D
   for (std::size_t k = 0; k < bank.of_runs.size(); ++k) {
     if (!bank.of_runs[k] || !points[k].id.empty() || points[k].member == but_) continue;
     const auto seed = static_cast<unsigned long>(points[k].member);
-    const Eigen::VectorXd more =
-        read(*bank.of_runs[k], seed, 1.0 + kStatedError) - read(*bank.of_runs[k], seed, 1.0 - kStatedError);
+    const Eigen::VectorXd more = read(*bank.of_runs[k], seed, 1.0 + kThresholds.stated_error) -
+                                 read(*bank.of_runs[k], seed, 1.0 - kThresholds.stated_error);
     sum = count > 0.0 ? Eigen::VectorXd(sum + more) : more;
     count += 2.0;
   }
@@ -153,7 +150,10 @@ Eigen::MatrixXd field_model_error(const std::vector<Eigen::VectorXd>& baselines)
   for (const auto& one : baselines) mean += one / static_cast<double>(baselines.size());
   for (const auto& one : baselines)
     square += (one - mean).cwiseAbs2() / static_cast<double>(baselines.size());
-  return (kModelShare * kModelShare * square.array() + kModelFloor * kModelFloor).matrix().asDiagonal();
+  return (kThresholds.field_share * kThresholds.field_share * square.array() +
+          kThresholds.field_floor * kThresholds.field_floor)
+      .matrix()
+      .asDiagonal();
 }
 
 }  // namespace pendular::diagnosis

@@ -1,11 +1,12 @@
 #include "diagnosis/bank/model_error.h"
 
+#include "diagnosis/thresholds.h"
+
 namespace pendular::diagnosis {
 
 double shared_stress_error(const Feature& feature) {
-  constexpr double kShared = 0.01;
   for (const char* stress : {"modulus", "peak_stress", "stress_at"})
-    if (feature.logarithm && feature.name.find(stress) != std::string::npos) return kShared;
+    if (feature.logarithm && feature.name.find(stress) != std::string::npos) return kThresholds.stress_error;
   return 0.0;
 }
 

@@ -2,18 +2,23 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace pendular::diagnosis {
 
-/// What a change of magnitude θ does to the features, Σ θ^(k+1) powers[k], and by how much runs of it differ
-/// from that: draws of an effect differ, and a polynomial is not the effect.
+/// What a change of magnitude θ does to the features, Σ θ^(k+1) powers[k] + ln(1 + |θ|/early_at) early, and
+/// by how much runs of it differ from that: draws of an effect differ, and such a sum is not the effect. The
+/// logarithm stands for sizes, whose squares grow from what members scatter by.
 struct Response {
   std::vector<Eigen::VectorXd> powers;
+  Eigen::VectorXd early = {};  ///< empty: none
+  double early_at = 1.0;
   Eigen::MatrixXd draws = {};  ///< covariance by which runs of it are missed, at drawn_at; empty: none
-  double drawn_at = 1.0;       ///< θ of that covariance, which grows with θ²
+  double drawn_at = 1.0;       ///< |θ| of that covariance
+  double growth = 2.0;         ///< power of θ with which it grows
   Eigen::MatrixXd missed =
       {};                  ///< by how much runs were missed, left out, at drawn_at: a row each that shows all
   double drawn_dof = 0.0;  ///< degrees of freedom of draws; 0: known
@@ -22,8 +27,11 @@ struct Response {
   Eigen::VectorXd at(double theta) const {
     Eigen::VectorXd sum = theta * powers.back();  // Horner's scheme
     for (std::size_t k = powers.size() - 1; k > 0; --k) sum = theta * (powers[k - 1] + sum);
+    if (early.size() > 0) sum += std::log1p(std::fabs(theta) / early_at) * early;
     return sum;
   }
+  /// The covariance of draws at θ over that at drawn_at.
+  double grown(double theta) const { return std::pow(std::fabs(theta) / drawn_at, growth); }
 };
 
 /// What an effect does, and how large it may be.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/model_version.h"
 #include "base/path_kind.h"
 #include "base/random.h"
 #include "effects/compress.h"
@@ -77,7 +78,8 @@ Packing measured_packing(const Condition& condition, int member, const Sample& c
   if (!condition.network.empty())
     use_network(condition.network, member > 1 && member < kFirstFresh, static_cast<std::uint64_t>(member),
                 packing);
-  packing.provenance = {program_version(),
+  // The bytes name the runs of a store, whatever commit wrote them.
+  packing.provenance = {fmt::format("model {}", kModelVersion),
                         fmt::format("pendular diagnose: member {}", member),
                         static_cast<std::uint64_t>(member),
                         {}};

@@ -7,19 +7,13 @@
 #include <set>
 
 #include "diagnosis/inference/log_sum.h"
+#include "diagnosis/thresholds.h"
 
 namespace pendular::diagnosis {
 namespace {
 
 constexpr double kTemperatures[] = {1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0};
 constexpr double kLeastProbability = 1e-9;  // that a wrong answer is charged with
-constexpr double kFalseAlarms = 0.05, kOfTheta = 0.9, kOfLimits = 0.95;
-constexpr double kBySlip = 0.05;  // of runs without an effect that are told from none; level of a test of it
-constexpr double kOfAll = 10.0;   // runs that what all effects need is worth beside an effect's own
-constexpr double kUnknownAlone = 0.95;
-constexpr double kLeastInCluster = 40.0;  // runs
-constexpr double kLessInCluster = 0.05;   // confidence that one cluster may have less than all together
-constexpr std::size_t kLeastCases = 60;   // from which a replay is believed
 constexpr double kBins[] = {0.0, 0.4, 0.6, 0.8, 0.9, 1.0};
 constexpr const char* kNone = "none";
 constexpr const char* kUnknown = "unknown";
@@ -121,7 +115,7 @@ std::vector<std::vector<std::string>> clusters_of(const std::map<std::string, st
     const double here = static_cast<double>(needed.at(order[k].second).size());
     sum += here * order[k].first, n += here;
     const double apart = n * (runs - n) * std::pow(sum / n - (all - sum) / (runs - n), 2);
-    if (std::min(n, runs - n) >= kLeastInCluster && apart > most) most = apart, split = k + 1;
+    if (std::min(n, runs - n) >= kThresholds.least_in_cluster && apart > most) most = apart, split = k + 1;
   }
   std::vector<std::vector<std::string>> clusters(split < order.size() ? 2 : 1);
   for (std::size_t k = 0; k < order.size(); ++k) clusters[k < split ? 0 : 1].push_back(order[k].second);
@@ -145,7 +139,7 @@ void learn_levels(const std::vector<std::vector<Hypothesis>>& said, const Cases&
   for (const auto& cluster : clusters_of(needed)) {
     std::vector<double> values;
     for (const auto& id : cluster) values.insert(values.end(), needed[id].begin(), needed[id].end());
-    const double own = conformal(values, confidence - kLessInCluster);
+    const double own = conformal(values, confidence - kThresholds.less_in_cluster);
     for (const auto& id : cluster) found.levels[id] = own;
     for (const double value : values) beyond.push_back(value <= own ? 0.0 : value);
   }
@@ -155,10 +149,11 @@ void learn_levels(const std::vector<std::vector<Hypothesis>>& said, const Cases&
 
 /// Probability that of n runs at least so many are told apart by slips alone.
 double by_slips(int told, int n) {
-  double below = 0.0, term = std::pow(1.0 - kBySlip, n);
+  double below = 0.0, term = std::pow(1.0 - kThresholds.by_slip, n);
   for (int k = 0; k < told; ++k) {
     below += term;
-    term *= kBySlip / (1.0 - kBySlip) * static_cast<double>(n - k) / static_cast<double>(k + 1);
+    term *= kThresholds.by_slip / (1.0 - kThresholds.by_slip) * static_cast<double>(n - k) /
+            static_cast<double>(k + 1);
   }
   return 1.0 - below;
 }
@@ -175,7 +170,7 @@ std::set<std::string> unseen_in(const std::vector<std::vector<Hypothesis>>& said
   }
   std::set<std::string> unseen;
   for (const auto& [id, counts] : told)
-    if (id != kNone && by_slips(counts.first, counts.second) > kBySlip) unseen.insert(id);
+    if (id != kNone && by_slips(counts.first, counts.second) > kThresholds.by_slip) unseen.insert(id);
   return unseen;
 }
 
@@ -191,12 +186,13 @@ void learn_magnitudes(const Cases& cases, Correction& found) {
     widenings[truth->id].push_back(all.back());
   }
   if (all.empty()) return;
-  found.widening_of_others = std::max(1.0, conformal(std::move(all), kOfTheta));
+  found.widening_of_others = std::max(1.0, conformal(std::move(all), kThresholds.of_theta));
   for (auto& [id, values] : widenings) {
     const double n = static_cast<double>(values.size()),
-                 own = std::max(0.3, conformal(std::move(values), kOfTheta));
+                 own = std::max(0.3, conformal(std::move(values), kThresholds.of_theta));
     found.widening[id] = std::max(
-        1.0, std::exp((n * std::log(own) + kOfAll * std::log(found.widening_of_others)) / (n + kOfAll)));
+        1.0, std::exp((n * std::log(own) + kThresholds.worth_of_all * std::log(found.widening_of_others)) /
+                      (n + kThresholds.worth_of_all)));
   }
   found.widening_of_limits = 1.0;
   for (const auto* one : cases) {
@@ -206,7 +202,7 @@ void learn_magnitudes(const Cases& cases, Correction& found) {
       limits.push_back(std::fabs(one->truth.begin()->second) /
                        std::max(1e-12, upper_limit(truth->magnitudes.front(), found)));
   }
-  found.widening_of_limits = std::max(1.0, conformal(std::move(limits), kOfLimits));
+  found.widening_of_limits = std::max(1.0, conformal(std::move(limits), kThresholds.of_limits));
 }
 
 Correction learn(const Cases& cases, double confidence) {
@@ -218,7 +214,7 @@ Correction learn(const Cases& cases, double confidence) {
     said.push_back(tempered(one->said, found.temperature));
     alarms.push_back(said_of(said.back(), kUnknown)->probability);
   }
-  found.gate = conformal(std::move(alarms), 1.0 - kFalseAlarms);
+  found.gate = conformal(std::move(alarms), 1.0 - kThresholds.false_alarms);
   learn_levels(said, cases, confidence, found);
   found.unseen = unseen_in(said, cases, found);
   learn_levels(said, cases, confidence, found);
@@ -312,7 +308,7 @@ AmbiguitySet set_of(const std::vector<Hypothesis>& said, const Correction& corre
   const Hypothesis* unknown = said_of(said, kUnknown);
   const bool first = unknown && said.front().id == kUnknown;
   if (first) set.ids.push_back(kUnknown);
-  if (!first || unknown->probability < kUnknownAlone) {
+  if (!first || unknown->probability < kThresholds.unknown_alone) {
     double held = 0.0;
     for (const auto& h : said) {
       if (h.id == kUnknown) continue;
@@ -341,7 +337,7 @@ Promise promise_of(const std::vector<Replayed>& replayed, double confidence) {
     // A pair whose runs are all of one member is not known where that member is left out.
     if (one.truth.size() < 2 || said_of(one.said, truth_of(one)))
       cases.push_back(&one), members.insert(one.member);
-  if (cases.size() < kLeastCases || members.size() < 3) return promise;
+  if (cases.size() < kThresholds.least_cases || members.size() < 3) return promise;
   promise.cases = cases.size();
   promise.correction = learn(cases, confidence);
   std::vector<Reliability> bins(std::size(kBins) - 1);

@@ -12,20 +12,11 @@
 #include "diagnosis/bank/model_error.h"
 #include "diagnosis/inference/reduced_space.h"
 #include "diagnosis/kinds/tools.h"
+#include "diagnosis/thresholds.h"
 #include "effects/list.h"
 
 namespace pendular::diagnosis {
 namespace {
-
-constexpr double kScale = 0.5, kLeast = 0.12;  // usual and least magnitudes, over the bank's largest
-// Of responses: a polynomial through three magnitudes is not the effect. Beads that were measured wrongly are
-// only nearly found again.
-constexpr double kError = 0.07, kErrorOfBeads = 0.4;
-// Of each reading's variance, once more, without correlation: some hundred readings are known from a dozen
-// members.
-constexpr double kApart = 1.0;
-constexpr double kReading =
-    0.5;  // of what the other reading of a law does: one standard deviation of two that are alike
 
 double largest_in_bank(const effects::Effect& effect) {
   return std::max(std::fabs(effect.bank_from), std::fabs(effect.bank_to));
@@ -64,10 +55,11 @@ class Learner {
       const Signature* learnt = responses.find(effect.id);
       if (!learnt) continue;
       Signature signature = *learnt;
-      signature.lowest = std::max(effect.lowest, kBeyondBank * effect.bank_from);
-      signature.highest = std::min(effect.highest, kBeyondBank * effect.bank_to);
-      signature.scale = usual_magnitude(effect), signature.least = kLeast * largest_in_bank(effect);
-      signature.error = effect.beads ? kErrorOfBeads : kError;
+      signature.lowest = std::max(effect.lowest, kThresholds.beyond_bank * effect.bank_from);
+      signature.highest = std::min(effect.highest, kThresholds.beyond_bank * effect.bank_to);
+      signature.scale = usual_magnitude(effect),
+      signature.least = kThresholds.least_share * largest_in_bank(effect);
+      signature.error = effect.beads ? kThresholds.error_of_beads : kThresholds.response_error;
       found_.signatures.push_back(std::move(signature));
     }
   }
@@ -102,7 +94,8 @@ class Learner {
         if (found->powers.size() > 1) add(key + kCurvature, M_SQRT2 * found->powers[1]);
       }
     for (const auto& reading : law_readings())
-      if (const Signature* found = responses.find(reading.id)) add(reading.name, kReading * found->at(1.0));
+      if (const Signature* found = responses.find(reading.id))
+        add(reading.name, kThresholds.law_reading * found->at(1.0));
     Eigen::VectorXd stresses(size());
     for (Eigen::Index f = 0; f < size(); ++f)
       stresses[f] = shared_stress_error(found_.observed.features[static_cast<std::size_t>(f)]);
@@ -132,7 +125,7 @@ class Learner {
       share += scatter.covariance(f, f) / found_.gap.covariance(f, f) / static_cast<double>(size());
       found_.noise.push_back(budget);
     }
-    if (observed.level == Level::readings) found_.gap.covariance.diagonal() *= 1.0 + kApart;
+    if (observed.level == Level::readings) found_.gap.covariance.diagonal() *= 1.0 + kThresholds.uncorrelated;
     // Welch and Satterthwaite: only the ensemble's part of the noise was estimated.
     found_.gap.dof = scatter.dof / std::max(1e-6, share * share);
   }
@@ -180,7 +173,7 @@ class Learner {
 }  // namespace
 
 double usual_magnitude(const effects::Effect& effect) {
-  return kScale * largest_in_bank(effect);
+  return kThresholds.usual_share * largest_in_bank(effect);
 }
 
 Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
@@ -208,6 +201,7 @@ std::vector<Signature> part_of(const std::vector<Signature>& signatures,
   std::vector<Signature> parts = signatures;
   const auto take = [&](Response& response) {
     for (auto& power : response.powers) power = Eigen::VectorXd(power(rows));
+    if (response.early.size() > 0) response.early = Eigen::VectorXd(response.early(rows));
     if (response.draws.size() > 0) response.draws = Eigen::MatrixXd(response.draws(rows, rows));
     if (response.missed.size() > 0) response.missed = Eigen::MatrixXd(response.missed(Eigen::all, rows));
   };

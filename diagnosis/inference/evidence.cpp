@@ -7,11 +7,13 @@
 
 #include "diagnosis/inference/log_sum.h"
 #include "diagnosis/inference/weigher.h"
+#include "diagnosis/thresholds.h"
 
 namespace pendular::diagnosis {
 namespace {
 
 constexpr int kCells = 81;  // of an effect's range, in which another's nearest is looked for
+constexpr double kLeastShare = 0.01, kStep = 1.25;  // of the magnitudes at which an effect is looked for
 
 Weighed none(const ReducedSpace& space, const ReducedGap& gap) {
   const Eigen::Index size = space.size();
@@ -65,18 +67,34 @@ std::optional<Together> together_of(const std::vector<Together>& all, const Sign
   return std::nullopt;
 }
 
+/// A reduced signature whose least magnitude is no larger than what these observations show of it.
+Signature with_visible(Signature reduced) {
+  for (const double end : {reduced.lowest, reduced.highest})
+    for (double theta = kLeastShare * end; std::fabs(theta) < reduced.least; theta *= kStep)
+      if (theta == 0.0 || reduced.at(theta).norm() > kThresholds.visible) {
+        if (theta != 0.0) reduced.least = std::fabs(theta);
+        break;
+      }
+  return reduced;
+}
+
 }  // namespace
 
 Weigher::Weigher(const Gap& gap, const std::vector<Signature>& signatures,
                  const std::vector<Together>& together, const Priors& priors, Pairs which)
     : space_(gap, signatures), priors_(priors) {
-  for (const auto& signature : signatures) reduced_.push_back(space_.reduced(signature));
+  for (const auto& signature : signatures) reduced_.push_back(with_visible(space_.reduced(signature)));
   for (const auto& one : reduced_) singles_.emplace_back(std::vector{one}, std::nullopt, space_);
   for (std::size_t a = 0; a < reduced_.size(); ++a)
     for (std::size_t b = a + 1; b < reduced_.size(); ++b) {
       auto run = together_of(together, reduced_[a], reduced_[b], space_);
       if (run || which == Pairs::all) pairs_.push_back({a, b, std::move(run)});
     }
+}
+
+bool Weigher::absent(const std::string& effect, double theta) const {
+  return std::any_of(reduced_.begin(), reduced_.end(),
+                     [&](const Signature& one) { return one.id == effect && std::fabs(theta) < one.least; });
 }
 
 std::vector<Hypothesis> Weigher::of_singles(const ReducedGap& gap, double negligible) const {

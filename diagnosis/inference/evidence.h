@@ -43,9 +43,10 @@ enum class Pairs { all, run };
 /// responses of all effects span beyond the noise; what lies outside counts for all explanations alike but
 /// `unknown`. The likelihood is the multivariate t of Sellentin & Heavens (2016, MNRAS 456, L132). Magnitudes
 /// are integrated over on a grid, finer about its peak; a priori all in the signature's range are alike,
-/// those below its least one aside. A response is known to a share of itself (Signature::error) and to
-/// Response::draws, at 0.4 to 2.5 times its standard deviations, and two responses are taken to add to 0.15
-/// of their geometric mean, to 0.07 of it where they were run together.
+/// those aside that are below its least one and less than two standard deviations from none. A response is
+/// known to a share of itself (Signature::error) and to Response::draws, at 0.4 to 2.5 times its standard
+/// deviations, and two responses are taken to add to 0.15 of their geometric mean, to 0.07 of it where they
+/// were run together.
 ///
 /// `unknown` is something beside what is known: none or a single effect leaves a residual 1.5, 2.5, 4 or 7
 /// times as large as noise does, within the span, outside it, or both; or (Priors::like_known) something that

@@ -10,13 +10,12 @@
 #include "base/distributions.h"
 #include "base/quantity.h"
 #include "diagnosis/inference/reduced_space.h"
+#include "diagnosis/thresholds.h"
 #include "diagnosis/words.h"
 #include "effects/list.h"
 
 namespace pendular::diagnosis {
 namespace {
-
-constexpr double kWithPairs = 10.0;  // an effect may have so many times more in pairs and still be excluded
 
 Eigen::MatrixXd whole_covariance(const Gap& gap) {
   return gap.covariance + gap.believed * gap.believed.transpose();
@@ -124,7 +123,7 @@ void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hyp
     const auto ids = effects_in(h.id);
     for (const auto& id : ids) e.units.push_back(effects::find_effect(id, "diagnosis").unit);
     if (ids.size() == 1 && h.probability < rules.excluded &&
-        marginal(hypotheses, h.id) < kWithPairs * rules.excluded) {
+        marginal(hypotheses, h.id) < kThresholds.with_pairs * rules.excluded) {
       const auto row =
           std::find(diagnosis.effects.begin(), diagnosis.effects.end(), h.id) - diagnosis.effects.begin();
       const double visible = diagnosis.separation(row, diagnosis.separation.cols() - 1);

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/thresholds.h"
 #include "effects/list.h"
 
 namespace pendular::diagnosis {
 namespace {
 
 constexpr int kMembers = 4;                              // that each is run on
-constexpr double kPairLeads = 0.01, kLeads = 0.05;       // probabilities
 constexpr std::size_t kMostPairs = 4, kMostSingles = 2;  // at a time
 constexpr double kPairSteps = 3.0, kSteps = 12.0;        // of a bank's range, to which magnitudes are rounded
 
@@ -51,7 +51,7 @@ std::vector<DesignPoint> leading_points(const Problem& problem, const Priors& pr
   std::size_t pairs = 0, singles = 0, runs = 0;
   for (const auto& h : weigh(readings.gap, readings.signatures, readings.together, known)) {
     const bool pair = h.magnitudes.size() == 2;
-    if (h.magnitudes.empty() || h.probability < (pair ? kPairLeads : kLeads)) continue;
+    if (h.magnitudes.empty() || h.probability < (pair ? kThresholds.pair_leads : kThresholds.leads)) continue;
     if (pair ? pairs == kMostPairs : singles == kMostSingles) continue;
     Changes changes;
     std::string rest = h.id;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "diagnosis/inference/log_sum.h"
+#include "diagnosis/thresholds.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -17,9 +18,6 @@ constexpr double kScaleWeights[] = {0.1, 0.24, 0.32, 0.24, 0.1};
 constexpr int kCellsOfOne = 41, kCellsOfTwo = 11;  // of each effect's range
 constexpr int kRefined = 3, kParts = 4;            // how often cells at the peak are cut, and into how many
 constexpr double kUnknownFactors[] = {1.0, 1.5, 2.5, 4.0, 7.0};  // of the noise's standard deviation
-constexpr double kTogether = 0.15;     // of their geometric mean, by which two effects do not add
-constexpr double kRunTogether = 0.07;  // likewise, where it was run what they do
-constexpr double kEverywhere = 0.3;    // share of a response's error that has no direction
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 /// All magnitudes are alike a priori, those below the least one aside.
@@ -32,8 +30,8 @@ double log_prior_of(const Signature& signature, double theta, double width) {
 
 /// How a reduced response is known by any run: to a share of itself.
 Eigen::VectorXd variance_of(const Signature& reduced, const Eigen::VectorXd& response) {
-  const double everywhere =
-      kEverywhere * response.squaredNorm() / std::max<double>(1.0, static_cast<double>(response.size()));
+  const double everywhere = kThresholds.everywhere * response.squaredNorm() /
+                            std::max<double>(1.0, static_cast<double>(response.size()));
   return reduced.error * reduced.error * (response.array().square() + everywhere);
 }
 
@@ -123,15 +121,16 @@ std::vector<Prediction> MagnitudeGrid::predict(const std::vector<Cell>& cells) c
     errors.shares += variance_of(reduced_[e], response);
     errors.outside += std::pow(reduced_[e].outside, 2) * response.squaredNorm();
     const Response& here = reduced_[e].response(theta);
-    const double grown = std::pow(theta / here.drawn_at, 2);
     if (here.draws.size() == 0) continue;
+    const double grown = here.grown(theta);
     errors.draws += grown * here.draws;
     drawn_outside += grown * here.drawn_outside;
     errors.dof = errors.dof > 0.0 ? std::min(errors.dof, here.drawn_dof) : here.drawn_dof;
   }
   if (together_)
     sum += cells[0].theta / together_->theta_a * cells[1].theta / together_->theta_b * together_->beyond;
-  errors.shares += std::pow(together_ ? kRunTogether : kTogether, 2) * product.cwiseAbs();
+  errors.shares +=
+      std::pow(together_ ? kThresholds.run_together : kThresholds.together, 2) * product.cwiseAbs();
   std::vector<Prediction> found;
   for (const double scale : kScales) {
     Errors scaled = errors;

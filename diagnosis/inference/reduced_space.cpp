@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/thresholds.h"
+
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kMostDof = 100.0;  // most that the likelihood trusts a covariance with
 constexpr Eigen::Index kMostDirections = 45;
-constexpr double kLeastDirection = 0.5;  // singular value, in units of the noise
-constexpr double kLongest = 8.0;         // a response counts no more than this for the directions
-constexpr int kSpanned = 3;              // magnitudes of each sign whose responses span
-constexpr double kFresh = 1.3;           // squares outside, of an observation over those of runs learnt from
+constexpr int kSpanned = 3;  // magnitudes of each sign whose responses span
 constexpr Eigen::Index kLeastRows =
     3;  // from which the variance in directions that none of them shows is learnt
 constexpr std::size_t kLeastKnown = 8;  // runs from which what is outside is learnt
@@ -39,7 +37,7 @@ double in_fresh_directions(const Eigen::MatrixXd& rows) {
 
 ReducedSpace::ReducedSpace(const Gap& gap, const std::vector<Signature>& signatures)
     : factor_(gap.covariance + gap.believed * gap.believed.transpose()),
-      dof_(gap.dof > 0.0 ? std::min(gap.dof, kMostDof) : 0.0) {
+      dof_(gap.dof > 0.0 ? std::min(gap.dof, kThresholds.most_dof) : 0.0) {
   find_directions(signatures);
   dimensions_ = static_cast<double>(factor_.rows() - size());
   learn_outside(gap.outside);
@@ -48,6 +46,7 @@ ReducedSpace::ReducedSpace(const Gap& gap, const std::vector<Signature>& signatu
 
 void ReducedSpace::reduce(Response& response) const {
   for (auto& power : response.powers) power = reduced(power);
+  if (response.early.size() > 0) response.early = reduced(response.early);
   if (response.draws.size() == 0) return;
   const Eigen::MatrixXd half = factor_.matrixL().solve(response.draws);
   const Eigen::MatrixXd whole = factor_.matrixL().solve(half.transpose());
@@ -113,7 +112,7 @@ void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {
       for (int k = 1; k <= kSpanned && end != 0.0; ++k) {
         const Eigen::VectorXd response = whiten(signature.at(end * k / kSpanned));
         const double length = response.norm();
-        if (length > 0.0) columns.push_back(response * std::min(1.0, kLongest / length));
+        if (length > 0.0) columns.push_back(response * std::min(1.0, kThresholds.longest / length));
       }
   const Eigen::Index features = factor_.rows();
   directions_ = Eigen::MatrixXd::Identity(features, features);
@@ -123,7 +122,7 @@ void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(all, Eigen::ComputeThinU);
   Eigen::Index kept = 0;
   while (kept < std::min(kMostDirections, svd.singularValues().size()) &&
-         svd.singularValues()[kept] > kLeastDirection)
+         svd.singularValues()[kept] > kThresholds.least_direction)
     ++kept;
   if (kept > 0) directions_ = svd.matrixU().leftCols(kept);
 }
@@ -137,7 +136,7 @@ void ReducedSpace::learn_outside(const std::vector<double>& known) {
   for (double one : known) mean += one / n;
   for (double one : known) square += (one - mean) * (one - mean) / (n - 1.0);
   if (!(mean > 0.0 && square > 0.0)) return;
-  outside_scale_ = kFresh * square / (2.0 * mean);
+  outside_scale_ = kThresholds.fresh * square / (2.0 * mean);
   outside_dof_ = 2.0 * mean * mean / square;
 }
 

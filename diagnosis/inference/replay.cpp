@@ -67,7 +67,7 @@ std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan
     const auto& [run, changes] = held[k];
     Replayed one{member, {}, {}};
     for (const auto& [id, theta] : changes)
-      if (is_effect(id)) one.truth[id] = theta;
+      if (is_effect(id) && !weigher.absent(id, theta)) one.truth[id] = theta;
     found.push_back(std::move(one));
     observed.push_back(run.values - mean +
                        errors.draw(kSeedsOfMember * static_cast<std::uint64_t>(member) + k));

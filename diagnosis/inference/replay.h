@@ -10,7 +10,7 @@ namespace pendular::diagnosis {
 /// A run of the bank, diagnosed as if it had been measured.
 struct Replayed {
   int member = 0;
-  Changes truth;                 ///< its effects
+  Changes truth;                 ///< its effects, without those that count as absent (Weigher::absent)
   std::vector<Hypothesis> said;  ///< of it by a bank that lacks its member; most probable first
 };
 

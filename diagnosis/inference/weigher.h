@@ -28,6 +28,9 @@ class Weigher {
 
   const ReducedSpace& space() const { return space_; }
 
+  /// Whether an effect of this magnitude counts as absent: below its least one, and not seen here.
+  bool absent(const std::string& effect, double theta) const;
+
  private:
   /// Unknown, none and single effects, before probabilities.
   std::vector<Hypothesis> of_singles(const ReducedGap& gap, double negligible) const;

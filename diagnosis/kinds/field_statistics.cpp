@@ -9,15 +9,12 @@
 
 #include "base/quantile.h"
 #include "base/random.h"
+#include "diagnosis/thresholds.h"
 #include "packing/bridges.h"
 
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kLeastMode = 0.05;           // µm, rms per bead: below it a difference is no mode
-constexpr double kCoherent = 0.3;             // share of the squares that repeats from run to run
-constexpr double kIndependent = 0.05;         // of the largest singular value
-constexpr double kFloor = 0.25;               // of the noise's variance, below which sizes are not told apart
 constexpr double kEnds = 1.25;                // mean diameters from the flat ends
 constexpr double kSteep = 0.7, kFlat = 0.35;  // cosine of a pair's direction to the axis
 constexpr double kPartScale = 0.2;            // µm, of how far pairs part
@@ -26,7 +23,7 @@ constexpr double kPairQuantiles[] = {0.02, 0.1, 0.5, 0.9, 0.98};
 
 /// Logarithm of a root mean square whose noise has this variance.
 double log_size(double mean_square, double noise) {
-  return 0.5 * std::log(std::max(mean_square - noise, 0.0) + kFloor * noise + 1e-12);
+  return 0.5 * std::log(std::max(mean_square - noise, 0.0) + kThresholds.size_floor * noise + 1e-12);
 }
 
 double mean_square(const Eigen::VectorXd& field, const std::vector<Eigen::Index>& rows) {
@@ -64,8 +61,8 @@ struct Change {
   /// Whether the line is more than chance makes of so many runs, and large enough to be seen.
   bool repeats() const {
     const double fitted = sum.squaredNorm() / theta_squares;  // of the squares
-    return per_bead(sum) * largest / theta_squares > kLeastMode &&
-           fitted > (kCoherent + (1.0 - kCoherent) / runs) * squares;
+    return per_bead(sum) * largest / theta_squares > kThresholds.least_mode &&
+           fitted > (kThresholds.coherent + (1.0 - kThresholds.coherent) / runs) * squares;
   }
 };
 
@@ -106,7 +103,7 @@ void FieldStatistics::learn_modes(const std::vector<BankField>& bank) {
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(all, Eigen::ComputeThinU);
   Eigen::Index kept = 0;
   while (kept < svd.singularValues().size() &&
-         svd.singularValues()[kept] > kIndependent * svd.singularValues()[0])
+         svd.singularValues()[kept] > kThresholds.independent * svd.singularValues()[0])
     ++kept;
   modes_ = svd.matrixU().leftCols(kept);
 }
@@ -162,7 +159,8 @@ Eigen::VectorXd FieldStatistics::operator()(const Eigen::VectorXd& field) const 
   std::vector<double> sizes;
   for (Eigen::Index row = 0; row < left.size(); row += 3) sizes.push_back(left.segment<3>(row).norm());
   for (double share : kQuantiles)
-    values.push_back(0.5 * std::log(std::pow(lower_quantile(sizes, share), 2) + kFloor * noise + 1e-12));
+    values.push_back(
+        0.5 * std::log(std::pow(lower_quantile(sizes, share), 2) + kThresholds.size_floor * noise + 1e-12));
   for (const auto& [name, rows] : parts_) values.push_back(log_size(mean_square(left, rows), 3.0 * noise));
 
   std::vector<double> parting;

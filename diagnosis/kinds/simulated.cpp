@@ -59,6 +59,9 @@ void read_frames(const effects::Effect& effect, double theta, SimulatedTest& tes
     row.front().strain = frame.strain, row.front().stress = frame.stress;
     effect.rows(row, test.gauge, theta);
     frame.strain = row.front().strain;
+    if (!effect.lengths) continue;
+    for (auto* vectors : {&frame.rest, &frame.displacement})
+      for (Vec3& v : *vectors) v *= effect.lengths(theta);
   }
 }
 

@@ -40,7 +40,8 @@ SimulatedTest read_simulated_test(const fs::path& folder);
 /// Leaves out what a test shows beyond this strain of the run.
 void end_at(double strain, SimulatedTest& test);
 
-/// Frames by the strain that instruments with an effect show: a run's frames have the true one.
+/// Frames by the strain and the lengths that instruments with an effect show: a run's frames have the true
+/// ones.
 void read_frames(const effects::Effect& effect, double theta, SimulatedTest& test);
 
 /// The frame whose platen strain, as the instruments read it, is nearest to this one. BadInput where the run

@@ -7,12 +7,10 @@
 #include <map>
 
 #include "diagnosis/kinds/similarity.h"
+#include "diagnosis/thresholds.h"
 
 namespace pendular::diagnosis {
 namespace {
-
-constexpr double kShareOfLargest = 1.0 / 3.0;
-constexpr double kTail = 0.05;  // of the beads that stand out, beyond the range that is told
 
 /// The range of most of some values.
 std::pair<double, double> range_of(std::vector<double> values) {
@@ -20,7 +18,7 @@ std::pair<double, double> range_of(std::vector<double> values) {
   const auto at = [&](double share) {
     return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
   };
-  return {at(kTail), at(1.0 - kTail)};
+  return {at(kThresholds.tail), at(1.0 - kThresholds.tail)};
 }
 
 std::string words_of(const Place& place) {
@@ -87,8 +85,9 @@ Place place_of(const ScannedMotion& scan, const Simulation& specimen,
       simulated[k] += member[k] / static_cast<double>(scan.simulated.size());
   }
   place.misfit = place_misfit(beads);
-  place.cut = std::max(place.misfit.threshold, kShareOfLargest * *std::max_element(place.misfit.value.begin(),
-                                                                                   place.misfit.value.end()));
+  place.cut = std::max(
+      place.misfit.threshold,
+      kThresholds.share_of_largest * *std::max_element(place.misfit.value.begin(), place.misfit.value.end()));
   place.stiffness = place_stiffness(specimen, scan.strain, bead, simulated, beads);
   place.words = words_of(place);
   return place;

@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "diagnosis/thresholds.h"
 #include "packing/bridges.h"
 
 namespace pendular::diagnosis {
@@ -15,12 +16,8 @@ namespace {
 
 constexpr double kNeighbours = 0.064;  // gap up to which beads are a pair, over the diameter
 constexpr double kAbout = 1.3;         // reach of a bead's surroundings, diameters
-constexpr double kFalsePlaces = 0.05;
-/// No place below this: of four packings without a flaw one has 1.96, of which its members give 1.55 as the
-/// end of their noise (docs/place.md).
-constexpr double kLeastThreshold = 2.0;
-constexpr int kDraws = 3;           // of noise for each member
-constexpr double kOfNoise = 0.866;  // exp⟨ln(1 + z²)⟩ − 1 of normal noise in three components
+constexpr int kDraws = 3;              // of noise for each member
+constexpr double kOfNoise = 0.866;     // exp⟨ln(1 + z²)⟩ − 1 of normal noise in three components
 
 /// The pairs of neighbours, the variance of a component of their parting, and which are about each bead.
 struct Surroundings {
@@ -144,7 +141,7 @@ PlaceMisfit place_misfit(const MovedBeads& beads) {
     const auto values = values_of(surroundings, difference);
     maxima.push_back(*std::max_element(values.begin(), values.end()));
   }
-  misfit.threshold = std::max(kLeastThreshold, exceeded_by(maxima, kFalsePlaces));
+  misfit.threshold = std::max(kThresholds.least_misfit, exceeded_by(maxima, kThresholds.false_places));
   return misfit;
 }
 

@@ -8,6 +8,7 @@
 
 #include "dem_core/linear/joints.h"
 #include "dem_core/linear/stiffness_sensitivity.h"
+#include "diagnosis/thresholds.h"
 #include "packing/bridges.h"
 
 namespace pendular::diagnosis {
@@ -21,7 +22,6 @@ constexpr double kTolerance = 1e-4;  // of linear solves
 constexpr double kDof = 4.0;         // of the t distribution of a bead's difference
 constexpr int kRounds = 6;           // of its weights
 constexpr double kSizes[] = {0.05, 0.1, 0.2, 0.4, 0.8, 1.6};  // of changes, before they are seen
-constexpr double kFalsePlaces = 0.05;
 
 /// Beads far from each other: each next one is the farthest from those before.
 std::vector<std::size_t> centres_of_regions(const MovedBeads& beads) {
@@ -235,7 +235,7 @@ PlaceStiffness place_stiffness(const Simulation& specimen, double strain, const 
   PlaceStiffness found;
   found.regions = static_cast<int>(centres.size());
   found.left = fit.left;
-  found.threshold = exceeded_by(maxima, kFalsePlaces) / scale;
+  found.threshold = exceeded_by(maxima, kThresholds.false_places) / scale;
   const Eigen::VectorXd change = shares * fit.change;
   const Eigen::VectorXd sigma = scale * errors_of(shares, fit);
   found.change.assign(change.data(), change.data() + change.size());

@@ -116,6 +116,43 @@ TEST(Emulator, WhatDrawsDifferByIsNotBlownUpBySmallMagnitudes) {
   EXPECT_LT(std::sqrt(responses.find("plain")->draws(0, 0)), 0.05);
 }
 
+TEST(Emulator, FollowsASizeFromSmallMagnitudesOn) {
+  // The logarithm of a size whose square grows with θ² from 0.03² on.
+  const auto size = [](double theta) { return 0.5 * std::log1p(std::pow(theta / 0.03, 2)); };
+  std::vector<DesignRun> runs;
+  for (int member : {1, 2}) runs.push_back({member, "", 0.0, Eigen::VectorXd::Constant(1, 0.0)});
+  for (double theta : {0.06, 1.0 / 3.0, 2.0 / 3.0, 1.0})
+    for (int member : {1, 2})
+      runs.push_back({member, "e", theta, Eigen::VectorXd::Constant(1, size(theta)), true});
+  const auto responses = fit_responses(runs, 1);
+  for (double theta : {0.04, 0.1, 0.2, 0.5, 0.9})
+    EXPECT_NEAR(responses.find("e")->at(theta)[0], size(theta), 0.15) << theta;
+}
+
+TEST(Emulator, FindsHowWhatDrawsDifferByGrows) {
+  // The number of bridges that are missing varies by the root of how many they are, a rotation by itself.
+  for (const double growth : {1.0, 2.0}) {
+    std::vector<DesignRun> runs;
+    for (int member = 0; member < 6; ++member) runs.push_back({member, "", 0.0, Eigen::VectorXd::Zero(4)});
+    for (int k = 0; k < 192; ++k) {
+      const double theta = std::vector{0.06, 1.0 / 3.0, 2.0 / 3.0, 1.0}[static_cast<std::size_t>(k % 4)];
+      Eigen::VectorXd drawn(4), plain(4);
+      for (int f = 0; f < 4; ++f) {
+        const auto n = static_cast<std::uint64_t>(4 * k + f);
+        drawn[f] = std::pow(theta, 0.5 * growth) * random_normal(31, n) + 0.02 * random_normal(32, n);
+        plain[f] = 0.02 * random_normal(33, n);
+      }
+      runs.push_back({k % 6, "drawn", theta, drawn, true});
+      runs.push_back({k % 6, "plain", theta, plain});
+    }
+    const auto responses = fit_responses(runs, 4);
+    const Signature& found = *responses.find("drawn");
+    EXPECT_DOUBLE_EQ(found.growth, growth);
+    EXPECT_NEAR(found.grown(0.25), std::pow(0.25, growth), 1e-12);
+    EXPECT_NEAR(found.draws.trace() / 4.0, 1.0, 0.2);
+  }
+}
+
 TEST(Emulator, CorrelationsOfMembersAreNotTrustedWhole) {
   Responses responses;
   responses.members = {1, 2};
