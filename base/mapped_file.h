@@ -7,8 +7,8 @@
 namespace pendular {
 
 /// A file's bytes as memory that the system fills as they are touched and takes back when it runs short. If
-/// they cannot be read then, because the file was cut short or its disc fails, the program ends with status 4
-/// and one line.
+/// they cannot be read then, because the file was cut short or its disc fails, there is a SIGBUS: the program
+/// ends with status 4 and one line (own_process).
 class MappedFile {
  public:
   /// BadInput if the file cannot be read.

@@ -4,7 +4,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "base/interrupt.h"
+#include "base/own_process.h"
 #include "cli/command.h"
 #include "cli/picture_commands.h"
 #include "cli/program.h"
@@ -47,6 +47,6 @@ int main(int argc, char** argv) {
   using namespace pendular;
   cli::open_standard_streams();
   if (argc > 1 && cli::is_picture_command(argv[1])) return cli::become_pictures_program(argv);
-  catch_interrupts();
+  own_process();
   return cli::run_program({argv + 1, argv + argc});
 }

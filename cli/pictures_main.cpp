@@ -1,4 +1,4 @@
-#include "base/interrupt.h"
+#include "base/own_process.h"
 #include "cli/command.h"
 #include "cli/program.h"
 
@@ -31,6 +31,6 @@ void add_commands(CLI::App& app) {
 
 int main(int argc, char** argv) {
   pendular::cli::open_standard_streams();
-  pendular::catch_interrupts();
+  pendular::own_process();
   return pendular::cli::run_program({argv + 1, argv + argc});
 }

@@ -1,15 +1,13 @@
 #include "viz/canvas.h"
 
-#include <fcntl.h>
-#include <unistd.h>
 #include <vtkImageData.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/error.h"
+#include "base/own_process.h"
 
 namespace pendular::viz {
 namespace {
@@ -36,23 +34,9 @@ Image averaged(const vtkUnsignedCharArray& pixels, PictureSize size) {
 
 }  // namespace
 
-SilentStandardError::SilentStandardError() {
-  std::fflush(stderr);
-  kept_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
-  const int null = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  ::dup2(null, STDERR_FILENO);
-  ::close(null);
-}
-
-SilentStandardError::~SilentStandardError() {
-  std::fflush(stderr);
-  if (kept_ < 0) return;
-  ::dup2(kept_, STDERR_FILENO);
-  ::close(kept_);
-}
-
-Canvas::Canvas(const Display&, PictureSize size, double zoom)
-    : size_(size), zoom_(zoom > 0.0 ? zoom : size.height / 1200.0) {
+Canvas::Canvas(const Display& display, PictureSize size, double zoom)
+    : connection_(display.connect()), size_(size), zoom_(zoom > 0.0 ? zoom : size.height / 1200.0) {
+  window_->SetDisplayId(connection_.get());
   window_->SetOffScreenRendering(1);
   window_->SetMultiSamples(0);
   window_->SetSize(size.width * kOversample, size.height * kOversample);

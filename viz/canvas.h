@@ -27,21 +27,10 @@ class Canvas {
   Image draw();
 
  private:
+  Display::Connection connection_;  ///< closed after the window
   PictureSize size_;
   double zoom_;
   vtkNew<vtkRenderWindow> window_;
-};
-
-/// Standard error goes nowhere while this object lives: Mesa and Xlib write there on their own account.
-class SilentStandardError {
- public:
-  SilentStandardError();
-  ~SilentStandardError();
-  SilentStandardError(const SilentStandardError&) = delete;
-  SilentStandardError& operator=(const SilentStandardError&) = delete;
-
- private:
-  int kept_;
 };
 
 }  // namespace pendular::viz

@@ -15,12 +15,9 @@ namespace pendular::viz {
 namespace {
 
 bool offers_opengl(const char* name) {
-  ::Display* display = XOpenDisplay(name);
-  if (display == nullptr) return false;
+  const Display::Connection display(XOpenDisplay(name));
   int opcode = 0, event = 0, error = 0;
-  const bool glx = XQueryExtension(display, "GLX", &opcode, &event, &error) != 0;
-  XCloseDisplay(display);
-  return glx;
+  return display && XQueryExtension(display.get(), "GLX", &opcode, &event, &error) != 0;
 }
 
 /// The display number that Xvfb writes once it accepts connections; empty where it ended or stays silent.
@@ -41,10 +38,8 @@ std::string read_number(int fd) {
 }  // namespace
 
 Display::Display() {
-  const char* former = std::getenv("DISPLAY");
-  had_former_ = former != nullptr;
-  if (had_former_) former_ = former;
-  if (!former_.empty() && offers_opengl(former)) return;
+  if (const char* named = std::getenv("DISPLAY")) name_ = named;
+  if (!name_.empty() && offers_opengl(name_.c_str())) return;
 
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) throw ComputationFailed("no pipe to start Xvfb with");
@@ -64,16 +59,19 @@ Display::Display() {
           "pictures need an X server: Xvfb not found (Debian package xvfb), and no usable DISPLAY");
     throw ComputationFailed("pictures need an X server: Xvfb did not start, and no usable DISPLAY");
   }
-  ::setenv("DISPLAY", (":" + number).c_str(), 1);
+  name_ = ":" + number;
 }
 
-Display::~Display() {
-  if (!is_private()) return;
-  server_.reset();
-  if (had_former_)
-    ::setenv("DISPLAY", former_.c_str(), 1);
-  else
-    ::unsetenv("DISPLAY");
+Display::~Display() = default;
+
+void Display::Close::operator()(_XDisplay* connection) const {
+  XCloseDisplay(connection);
+}
+
+Display::Connection Display::connect() const {
+  Connection connection(XOpenDisplay(name_.c_str()));
+  if (!connection) throw ComputationFailed(fmt::format("the X display {} does not answer", name_));
+  return connection;
 }
 
 }  // namespace pendular::viz

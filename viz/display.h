@@ -1,15 +1,18 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "base/process.h"
 
+struct _XDisplay;  // of Xlib, whose header defines names like Status and None
+
 namespace pendular::viz {
 
 /// An X display to render on, there as long as this object lives: the one that DISPLAY names where it answers
 /// and offers OpenGL (GLX), else a private Xvfb on a free display number that ends with this object, and also
-/// when the program dies. Outlives every picture drawn on it. One at a time in a program: it sets DISPLAY.
+/// when the program dies. Outlives every picture drawn on it. DISPLAY stays as it is.
 /// Throws ComputationFailed where neither is to be had.
 class Display {
  public:
@@ -19,11 +22,18 @@ class Display {
   Display& operator=(const Display&) = delete;
 
   bool is_private() const { return server_.has_value(); }
+  const std::string& name() const { return name_; }  ///< as in DISPLAY
+
+  struct Close {
+    void operator()(_XDisplay* connection) const;
+  };
+  using Connection = std::unique_ptr<_XDisplay, Close>;
+  /// A connection to it. ComputationFailed where it does not answer any more.
+  Connection connect() const;
 
  private:
   std::optional<Process> server_;  ///< the private Xvfb
-  std::string former_;
-  bool had_former_ = false;
+  std::string name_;
 };
 
 }  // namespace pendular::viz

@@ -1,31 +1,13 @@
 #include "volume/image_io.h"
 
-#include <fcntl.h>
 #include <itkPNGImageIO.h>
 #include <itkTIFFImageIO.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <regex>
 
 #include "volume/format.h"
 
 namespace pendular {
-
-QuietLibraries::QuietLibraries() : saved_(::dup(STDERR_FILENO)) {
-  std::fflush(stderr);
-  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (nowhere < 0) return;
-  ::dup2(nowhere, STDERR_FILENO);
-  ::close(nowhere);
-}
-
-QuietLibraries::~QuietLibraries() {
-  std::fflush(stderr);
-  if (saved_ < 0) return;
-  ::dup2(saved_, STDERR_FILENO);
-  ::close(saved_);
-}
 
 std::string first_line(const char* text) {
   const std::string line(text);

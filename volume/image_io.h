@@ -5,24 +5,12 @@
 #include "volume/itk_images.h"
 
 #include "base/error.h"
+#include "base/own_process.h"
 #include "volume/pixels.h"
 #include "volume/place.h"
 #include "volume/volume.h"
 
 namespace pendular {
-
-/// Sends standard error nowhere while a library works that prints its own warnings there: the user is to read
-/// one line.
-class QuietLibraries {
- public:
-  QuietLibraries();
-  ~QuietLibraries();
-  QuietLibraries(const QuietLibraries&) = delete;
-  QuietLibraries& operator=(const QuietLibraries&) = delete;
-
- private:
-  int saved_;
-};
 
 /// Everything before the first line break, without addresses in memory.
 std::string first_line(const char* text);
@@ -30,7 +18,7 @@ std::string first_line(const char* text);
 /// Runs a call into ITK; its exceptions become one line about `path`.
 template <typename Call>
 void guarded(const fs::path& path, const Call& call) {
-  const QuietLibraries quiet;
+  const SilentStandardError silent;
   try {
     call();
   } catch (const itk::ExceptionObject& error) {

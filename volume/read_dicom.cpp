@@ -173,7 +173,8 @@ rlim_t bytes_in(const fs::path& path) {
 
 /// What is wrong with a volume; empty where it could be read. For a process that may be lost.
 std::string complaint_about(const fs::path& path, const ReadOptions& options) {
-  const QuietLibraries quiet;
+  own_process();
+  const SilentStandardError silent;
   const rlimit no_core = {0, 0}, memory = {in_use() + kEnough * bytes_in(path) + kSpare, RLIM_INFINITY};
   ::setrlimit(RLIMIT_CORE, &no_core);
   ::setrlimit(RLIMIT_AS, &memory);

@@ -64,7 +64,7 @@ void write_volume(const fs::path& path, const Volume& volume, const Provenance& 
                                             to_json(provenance).dump());
     io->SetFileName(temporary.string());
     try {
-      const QuietLibraries quiet;
+      const SilentStandardError silent;
       with_pixels(volume, [&](auto pixels) { io->Write(pixels.data()); });
     } catch (const itk::ExceptionObject& error) {
       throw ComputationFailed(

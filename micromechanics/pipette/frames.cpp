@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <set>
 
 #include "base/error.h"
+#include "base/own_process.h"
 
 namespace pendular::pipette {
 namespace {
@@ -95,9 +94,7 @@ struct FrameSource::State {
 };
 
 FrameSource::FrameSource(const fs::path& path) : state_(std::make_unique<State>()) {
-  // What cannot be read is reported in one line of our own.
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
+  const SilentStandardError silent;  // what cannot be read is reported in one line of our own
   state_->path = state_->origin = path;
   const std::string name = path.filename().string();
   if (name.find('*') != std::string::npos) {
@@ -121,6 +118,7 @@ std::optional<Frame> FrameSource::next() {
   State& s = *state_;
   Frame frame;
   cv::Mat picture;
+  const SilentStandardError silent;
   if (s.images.empty()) {
     if (!s.video.read(picture) || picture.empty()) return std::nullopt;
     frame.number = static_cast<long long>(s.given);

@@ -13,8 +13,9 @@ namespace pendular::test {
 class ScratchFolder {
  public:
   ScratchFolder() {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = folder_name(info->test_suite_name(), info->name());
+    const auto& tests = *::testing::UnitTest::GetInstance();
+    const auto* test = tests.current_test_info();  // none while a suite is set up
+    const std::string name = folder_name(tests.current_test_suite()->name(), test ? test->name() : "");
     path_ = std::filesystem::temp_directory_path() / name;
     std::filesystem::create_directories(path_);
   }

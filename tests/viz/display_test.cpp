@@ -58,7 +58,7 @@ Other start_other() {
   const pid_t process = ::fork();
   if (process == 0) {
     const viz::Display display;
-    const std::string name = std::getenv("DISPLAY");
+    const std::string name = display.name();
     if (::write(ends[1], name.data(), name.size()) < 0) ::_exit(1);
     ::pause();
     ::_exit(0);
@@ -76,28 +76,28 @@ TEST(Display, StartsAPrivateServerWhereDisplayIsUnset) {
   {
     const viz::Display display;
     EXPECT_TRUE(display.is_private());
-    ASSERT_NE(std::getenv("DISPLAY"), nullptr);
-    name = std::getenv("DISPLAY");
+    name = display.name();
     EXPECT_TRUE(answers(name));
+    EXPECT_EQ(std::getenv("DISPLAY"), nullptr) << "the environment is the caller's";
   }
-  EXPECT_EQ(std::getenv("DISPLAY"), nullptr);
   EXPECT_TRUE(goes_away(name));
 }
 
 TEST(Display, UsesTheOneThatAnswers) {
   const Environment unset("DISPLAY", nullptr);
-  const viz::Display outer, inner;
+  const viz::Display outer;
   EXPECT_TRUE(outer.is_private());
+  const Environment named("DISPLAY", outer.name().c_str());
+  const viz::Display inner;
   EXPECT_FALSE(inner.is_private());
+  EXPECT_EQ(inner.name(), outer.name());
 }
 
 TEST(Display, FallsBackWhereDisplayDoesNotAnswer) {
   const Environment bad("DISPLAY", ":54321");
-  {
-    const viz::Display display;
-    EXPECT_TRUE(display.is_private());
-    EXPECT_STRNE(std::getenv("DISPLAY"), ":54321");
-  }
+  const viz::Display display;
+  EXPECT_TRUE(display.is_private());
+  EXPECT_NE(display.name(), ":54321");
   EXPECT_STREQ(std::getenv("DISPLAY"), ":54321");
 }
 
