@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "base/parallel.h"
@@ -36,6 +37,11 @@ T grey_of(double value) {
   return static_cast<T>(std::clamp(std::round(value), least, greatest));
 }
 
+/// Not a template: in those that a generic lambda instantiates clang 16 leaves out TBB's tasks.
+void for_slices(std::size_t slices, const std::function<void(std::size_t)>& work) {
+  for_blocks(slices, 1, [&](std::size_t slice, std::size_t) { work(slice); });
+}
+
 template <typename T>
 std::vector<T> along(std::span<const Grey<T>> pixels, std::array<std::size_t, 3>& size, std::size_t axis,
                      double edge) {
@@ -43,7 +49,7 @@ std::vector<T> along(std::span<const Grey<T>> pixels, std::array<std::size_t, 3>
   const std::array<std::size_t, 3> stride{1, size[0], size[0] * size[1]};
   size[axis] = taps.size();
   std::vector<T> result(size[0] * size[1] * size[2]);
-  for_blocks(size[2], 1, [&](std::size_t k, std::size_t) {
+  for_slices(size[2], [&](std::size_t k) {
     std::size_t out = k * size[0] * size[1];
     for (std::size_t j = 0; j < size[1]; ++j)
       for (std::size_t i = 0; i < size[0]; ++i) {
