@@ -21,7 +21,7 @@
 namespace pendular {
 namespace {
 
-constexpr BridgeResolution kReference{
+constexpr micromechanics::BridgeResolution kReference{
     .order = 8, .rim_layers = 4, .rim_ratio = 0.15, .rim_reach = 1.25, .axis_stride = 0.5};
 
 template <typename Work>
@@ -36,13 +36,14 @@ double median_seconds(int repeats, const Work& work) {
   return times[static_cast<std::size_t>(repeats / 2)];
 }
 
-void time_one_bridge(const char* name, const BridgeBody& body, const Polymer& polymer) {
-  const double ms = 1e3 * median_seconds(31, [&] { bridge_stiffness(body, polymer); });
+void time_one_bridge(const char* name, const micromechanics::BridgeBody& body,
+                     const micromechanics::Polymer& polymer) {
+  const double ms = 1e3 * median_seconds(31, [&] { micromechanics::bridge_stiffness(body, polymer); });
   fmt::print("{:<44} {:7.1f} ms, {:.2f} of 50 ms\n", name, ms, ms / 50.0);
 }
 
-std::vector<BridgeBody> packing_bridges() {
-  std::vector<BridgeBody> bodies;
+std::vector<micromechanics::BridgeBody> packing_bridges() {
+  std::vector<micromechanics::BridgeBody> bodies;
   for (std::uint64_t k = 0; k < 30000; ++k) {
     const auto draw = [&](std::uint64_t n) { return std::clamp(random_normal(1, 4 * k + n), -4.0, 4.0); };
     bodies.push_back({73.9e-6 + 12.7e-6 * draw(0), 200.9e-6 * (0.07 * random_uniform(2, k) - 0.006),
@@ -56,7 +57,7 @@ void time_packing(int threads) {
   const auto bodies = packing_bridges();
   double error = 0.0;
   const double seconds = median_seconds(5, [&] {
-    error = bridge_stiffnesses(bodies, {1.5e6, 0.49}).interpolation_error;
+    error = micromechanics::bridge_stiffnesses(bodies, {1.5e6, 0.49}).interpolation_error;
   });
   fmt::print("{:<44} {:7.2f} s, {:.2f} of 2 s; interpolated to {:.2g} %\n",
              fmt::format("30,000 bridges, table included, {} thread(s)", threads), seconds, seconds / 2.0,
@@ -64,7 +65,7 @@ void time_packing(int threads) {
 }
 
 /// Largest relative error of the four.
-double error_of(const BondStiffness& k, const BondStiffness& exact) {
+double error_of(const micromechanics::BondStiffness& k, const micromechanics::BondStiffness& exact) {
   return std::max({std::abs(k.normal / exact.normal - 1.0), std::abs(k.tangential / exact.tangential - 1.0),
                    std::abs(k.bending / exact.bending - 1.0), std::abs(k.twisting / exact.twisting - 1.0)});
 }
@@ -80,13 +81,15 @@ void print_convergence() {
        {Corner{73.9 / 200.9, 2.0 / 200.9, 0.49}, Corner{0.1, 0.001, 0.0}, Corner{0.1, 0.001, 0.499},
         Corner{0.1, 0.1, 0.0}, Corner{0.1, 0.1, 0.499}, Corner{0.8, 0.001, 0.0}, Corner{0.8, 0.001, 0.499},
         Corner{0.8, 0.1, 0.0}, Corner{0.8, 0.1, 0.499}}) {
-    const BridgeBody body{c.neck, c.gap, 1.0, 1.0};
-    const Polymer polymer{1.0, c.nu};
-    const BondStiffness exact = bridge_stiffness_on(body, polymer, kReference);
+    const micromechanics::BridgeBody body{c.neck, c.gap, 1.0, 1.0};
+    const micromechanics::Polymer polymer{1.0, c.nu};
+    const micromechanics::BondStiffness exact =
+        micromechanics::bridge_stiffness_on(body, polymer, kReference);
     fmt::print("| {:.3g} | {:.3g} | {} |", c.neck, c.gap, c.nu);
     for (int order = 2; order <= 7; ++order)
-      fmt::print(" {:.1e} |", error_of(bridge_stiffness_on(body, polymer, {.order = order}), exact));
-    fmt::print(" {:.1e} |\n", bridge_stiffness(body, polymer).error_estimate);
+      fmt::print(" {:.1e} |",
+                 error_of(micromechanics::bridge_stiffness_on(body, polymer, {.order = order}), exact));
+    fmt::print(" {:.1e} |\n", micromechanics::bridge_stiffness(body, polymer).error_estimate);
   }
 }
 
@@ -94,13 +97,13 @@ void print_range() {
   double error = 0.0, estimate = 0.0, ratio = 0.0;
   const int points = 400;
   for (std::uint64_t k = 0; k < points; ++k) {
-    const BridgeBody body{0.1 + 0.7 * random_uniform(1, 3 * k),
-                          1e-3 * std::pow(100.0, random_uniform(1, 3 * k + 1)), 1.0, 1.0};
+    const micromechanics::BridgeBody body{0.1 + 0.7 * random_uniform(1, 3 * k),
+                                          1e-3 * std::pow(100.0, random_uniform(1, 3 * k + 1)), 1.0, 1.0};
     // Half of them near incompressibility, half evenly.
     const double u = random_uniform(1, 3 * k + 2);
-    const Polymer polymer{1.0, k % 2 ? 0.499 * u : 0.5 - 0.5 * std::pow(0.002, u)};
-    const BridgeStiffness found = bridge_stiffness(body, polymer);
-    const double e = error_of(found, bridge_stiffness_on(body, polymer, kReference));
+    const micromechanics::Polymer polymer{1.0, k % 2 ? 0.499 * u : 0.5 - 0.5 * std::pow(0.002, u)};
+    const micromechanics::BridgeStiffness found = micromechanics::bridge_stiffness(body, polymer);
+    const double e = error_of(found, micromechanics::bridge_stiffness_on(body, polymer, kReference));
     error = std::max(error, e);
     estimate = std::max(estimate, found.error_estimate);
     if (e > 1e-8) ratio = std::max(ratio, e / found.error_estimate);

@@ -22,8 +22,8 @@ namespace pendular {
 namespace {
 
 /// Sample A's cylinder, `times` as large in volume, compressed until all beads carry load.
-const Simulation& loaded_specimen(int times) {
-  static std::map<int, Simulation> made;
+const dem_core::Simulation& loaded_specimen(int times) {
+  static std::map<int, dem_core::Simulation> made;
   if (const auto found = made.find(times); found != made.end()) return found->second;
   Sample sample;
   sample.bridges.normal_stiffness = 5760.0;
@@ -33,19 +33,19 @@ const Simulation& loaded_specimen(int times) {
   sample.specimen.height *= std::cbrt(times);
   Packing packing = generate_packing(sample, 1);
   packing.bridges = candidate_bridges(packing.beads, sample.bridges.cutoff * sample.beads.diameter);
-  Simulation simulation = build_simulation(realise(packing, sample, 1), sample);
-  Stepper stepper(simulation);
+  dem_core::Simulation simulation = dem_core::build_simulation(dem_core::realise(packing, sample, 1), sample);
+  dem_core::Stepper stepper(simulation);
   while (simulation.strain() < 5e-3) stepper.step();
   stepper.store();
   return made.emplace(times, std::move(simulation)).first->second;
 }
 
 void measure(benchmark::State& state, int threads, int times, const std::string& set) {
-  const Simulation& loaded = loaded_specimen(times);
-  use_instruction_set(set);
+  const dem_core::Simulation& loaded = loaded_specimen(times);
+  dem_core::use_instruction_set(set);
   set_threads(threads);
-  Simulation simulation = loaded;
-  Stepper stepper(simulation);
+  dem_core::Simulation simulation = loaded;
+  dem_core::Stepper stepper(simulation);
   for (auto _ : state) stepper.step();
   state.counters["particle_steps"] = benchmark::Counter(
       static_cast<double>(state.iterations()) * static_cast<double>(simulation.beads.size()),
@@ -69,7 +69,7 @@ void add(const std::string& name, int threads, int times, const std::string& set
 
 int main(int argc, char** argv) {
   using namespace pendular;
-  const auto sets = instruction_sets();
+  const auto sets = dem_core::instruction_sets();
   for (const auto& set : sets) add("sample_A/threads:1/" + set, 1, 1, set);
   add("sample_A/threads:2/" + sets.front(), 2, 1, sets.front());
   for (int threads : {1, 2})

@@ -21,7 +21,7 @@ namespace {
 constexpr double kLimitSeconds = 2.0;
 constexpr int kRepetitions = 3;
 
-Simulation specimen() {
+dem_core::Simulation specimen() {
   Sample sample;
   sample.bridges.normal_stiffness = 5760.0;
   sample.bridges.tangential_stiffness = 325.0;
@@ -29,19 +29,19 @@ Simulation specimen() {
   sample.specimen.volume_fraction = 0.62;
   Packing packing = generate_packing(sample, 1);
   packing.bridges = candidate_bridges(packing.beads, sample.bridges.cutoff * sample.beads.diameter);
-  return build_simulation(realise(packing, sample, 1), sample);
+  return dem_core::build_simulation(dem_core::realise(packing, sample, 1), sample);
 }
 
-void measure(const Simulation& simulation, double strain, int threads) {
+void measure(const dem_core::Simulation& simulation, double strain, int threads) {
   set_threads(threads);
   std::vector<double> seconds;
-  LinearResponse response;
+  dem_core::LinearResponse response;
   for (int k = 0; k < kRepetitions; ++k) {
     const auto start = std::chrono::steady_clock::now();
-    response = linear_response(simulation, {strain});
+    response = dem_core::linear_response(simulation, {strain});
     seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
-  const ContactCount& c = response.contacts;
+  const dem_core::ContactCount& c = response.contacts;
   fmt::print(
       "strain {:.3f}, {} thread(s): {:.2f} s (limit {:.1f}), E {:.2f} MPa, Poisson ratio {:.3f}, stress "
       "{:.4f} "
@@ -59,7 +59,7 @@ void measure(const Simulation& simulation, double strain, int threads) {
 
 int main() {
   using namespace pendular;
-  const Simulation simulation = specimen();
+  const dem_core::Simulation simulation = specimen();
   fmt::print("{} beads\n", simulation.beads.size());
   for (double strain : {0.02, 0.03, 0.04, 0.05})
     for (int threads : {1, 2}) measure(simulation, strain, threads);

@@ -188,7 +188,7 @@ double expected_particle_steps(const Split& split, const CasePlan& plan) {
     const double section = 0.25 * M_PI * sample.specimen.diameter * sample.specimen.diameter;
     const double beads = sample.specimen.volume_fraction * section * sample.specimen.height /
                          (M_PI / 6.0 * std::pow(sample.beads.diameter, 3));
-    return beads * expected_steps(sample) * unloading;
+    return beads * dem_core::expected_steps(sample) * unloading;
   };
   constexpr double kUnloading = 1.5;  // what an unloading, and runs to find its strain, add
   const SharedPacking& packing = packing_of(split, plan);

@@ -29,7 +29,7 @@ ordered_json vectors_json(const std::vector<Bead>& beads) {
 }
 
 ordered_json law_json(const Sample& sample) {
-  const BondStiffness bond = bond_stiffness(sample);
+  const micromechanics::BondStiffness bond = micromechanics::bond_stiffness(sample);
   const double ratio = sample.contact.stiffness_ratio;
   return {{"kn_n_per_m", bond.normal},
           {"kt_n_per_m", bond.tangential},
@@ -47,7 +47,7 @@ ordered_json law_json(const Sample& sample) {
 }
 
 /// Stiffness of bridges over that of the mean one, where no effect changes their bodies.
-ordered_json flat_stiffness(const BridgeBody& mean) {
+ordered_json flat_stiffness(const micromechanics::BridgeBody& mean) {
   const ordered_json ones = {{1.0, 1.0}, {1.0, 1.0}};
   return {{"gap_m", {mean.gap, 2.0 * mean.gap}},
           {"neck_m", {0.5 * mean.neck_diameter, mean.neck_diameter}},
@@ -59,7 +59,7 @@ ordered_json flat_stiffness(const BridgeBody& mean) {
 
 /// Likewise, rows by gap, columns by neck; by finite elements where some effect does.
 ordered_json stiffness_json(const Sample& sample) {
-  const BridgeBody mean = mean_bridge(sample);
+  const micromechanics::BridgeBody mean = micromechanics::mean_bridge(sample);
   const bool changed = std::any_of(sample.effects.begin(), sample.effects.end(), [](const auto& item) {
     return effects::find_effect(item.first, "engine").body != nullptr;
   });
@@ -67,7 +67,7 @@ ordered_json stiffness_json(const Sample& sample) {
   const double longest = std::max(kLongest * sample.beads.diameter, 1.1 * mean.gap);
   const double thinnest = kThinnest * mean.neck_diameter, thickest = kThickest * sample.beads.diameter;
   ordered_json gaps = ordered_json::array(), necks = ordered_json::array();
-  std::vector<BridgeBody> bodies = {mean};
+  std::vector<micromechanics::BridgeBody> bodies = {mean};
   for (std::size_t g = 0; g < kGaps; ++g)
     gaps.push_back(mean.gap * std::pow(longest / mean.gap, static_cast<double>(g) / (kGaps - 1)));
   for (std::size_t n = 0; n < kNecks; ++n)
@@ -75,9 +75,9 @@ ordered_json stiffness_json(const Sample& sample) {
   for (const auto& gap : gaps)
     for (const auto& neck : necks)
       bodies.push_back({neck.get<double>(), gap.get<double>(), mean.diameter_i, mean.diameter_j});
-  const auto bonds = bridge_stiffnesses(bodies, polymer_of(sample)).bonds;
+  const auto bonds = micromechanics::bridge_stiffnesses(bodies, micromechanics::polymer_of(sample)).bonds;
   ordered_json table{{"gap_m", gaps}, {"neck_m", necks}};
-  const auto add = [&](const char* name, double BondStiffness::*which) {
+  const auto add = [&](const char* name, double micromechanics::BondStiffness::*which) {
     for (std::size_t g = 0; g < kGaps; ++g) {
       ordered_json row = ordered_json::array();
       for (std::size_t n = 0; n < kNecks; ++n)
@@ -85,16 +85,16 @@ ordered_json stiffness_json(const Sample& sample) {
       table[name].push_back(row);
     }
   };
-  add("normal", &BondStiffness::normal);
-  add("tangential", &BondStiffness::tangential);
-  add("bending", &BondStiffness::bending);
-  add("twisting", &BondStiffness::twisting);
+  add("normal", &micromechanics::BondStiffness::normal);
+  add("tangential", &micromechanics::BondStiffness::tangential);
+  add("bending", &micromechanics::BondStiffness::bending);
+  add("twisting", &micromechanics::BondStiffness::twisting);
   return table;
 }
 
 ordered_json bridges_json(const Packing& packing, const Sample& sample) {
-  const auto standing = standing_bridges(packing);
-  const auto bodies = bond_bodies(packing, standing, sample);
+  const auto standing = dem_core::standing_bridges(packing);
+  const auto bodies = dem_core::bond_bodies(packing, standing, sample);
   ordered_json pairs = ordered_json::array(), necks = ordered_json::array();
   for (std::size_t k = 0; k < standing.size(); ++k) {
     pairs.push_back({standing[k].i, standing[k].j});
@@ -105,7 +105,7 @@ ordered_json bridges_json(const Packing& packing, const Sample& sample) {
 
 ordered_json test_json(const EngineRun& run) {
   const Sample& sample = run.sample;
-  ordered_json test{{"speed_m_per_s", platen_speed(sample)},
+  ordered_json test{{"speed_m_per_s", dem_core::platen_speed(sample)},
                     {"max_strain", run.max_strain},
                     {"unload_at", run.unload_at},
                     {"frame_at", run.frame_at},

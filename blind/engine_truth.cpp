@@ -24,7 +24,7 @@ void take_bridges(TrueTest& truth, const EngineResult& result) {
   for (std::size_t k = 0; k < result.bonds.size(); ++k) made[result.bonds[k]] = k;
   for (auto& bridge : truth.packing.bridges)
     if (!made.contains({bridge.i, bridge.j})) bridge.state = BridgeState::none;
-  for (const auto& bridge : standing_bridges(truth.packing)) {
+  for (const auto& bridge : dem_core::standing_bridges(truth.packing)) {
     const std::size_t k = made.at({bridge.i, bridge.j});
     truth.bodies.push_back({result.neck[k], result.gap[k], truth.packing.beads[bridge.i].diameter,
                             truth.packing.beads[bridge.j].diameter});

@@ -138,13 +138,14 @@ class Laboratory {
     const double misjudged = noise.misjudged();
     const auto& beads = test.sample.beads;
     const auto& bridges = test.sample.bridges;
-    std::vector<BridgeBody> bodies;
+    std::vector<micromechanics::BridgeBody> bodies;
     for (std::size_t k = 0; k < kSingleBridges; ++k) {
       const double diameter = beads.diameter + beads.diameter_sd * noise.normal();
       bodies.push_back(
           {noise.between(kThinnest, kThickest) * bridges.diameter, bridges.gap, diameter, diameter});
     }
-    const auto stiffness = bridge_stiffnesses(bodies, polymer_of(test.sample)).bonds;
+    const auto stiffness =
+        micromechanics::bridge_stiffnesses(bodies, micromechanics::polymer_of(test.sample)).bonds;
     Table table{{"d_um", "D_um", "kn_n_per_m", "kn_sigma_n_per_m", "kt_n_per_m", "kt_sigma_n_per_m"}, {}};
     for (std::size_t k = 0; k < bodies.size(); ++k) {
       const double kn = stiffness[k].normal * std::exp(kBridgeNoise * noise.normal());
@@ -159,9 +160,10 @@ class Laboratory {
 
  private:
   /// Some of the specimen's bridges.
-  static std::vector<BridgeBody> drawn(const TrueTest& test, std::size_t count, Noise& noise) {
-    const auto standing = standing_bridges(test.packing);
-    std::vector<BridgeBody> bodies;
+  static std::vector<micromechanics::BridgeBody> drawn(const TrueTest& test, std::size_t count,
+                                                       Noise& noise) {
+    const auto standing = dem_core::standing_bridges(test.packing);
+    std::vector<micromechanics::BridgeBody> bodies;
     while (bodies.size() < count) {
       const std::size_t k = noise.below(test.bodies.size());
       if (standing[k].state == BridgeState::candidate) bodies.push_back(test.bodies[k]);

@@ -23,11 +23,11 @@ struct Mechanism {
   /// What becomes of the specimen that is. Bridges that it adds are in state `bridge`: they carry load and
   /// are no bridges to who counts them.
   void (*packing)(Packing& packing, double theta) = nullptr;
-  void (*simulation)(Simulation& simulation, double theta) = nullptr;
-  std::function<void(const BondMoment&)> (*evolution)(double theta) = nullptr;
+  void (*simulation)(dem_core::Simulation& simulation, double theta) = nullptr;
+  std::function<void(const dem_core::BondMoment&)> (*evolution)(double theta) = nullptr;
   std::size_t memory = 0;  ///< numbers of that for each bond
   /// What the instruments, or who reads them, make of the rows.
-  void (*rows)(std::vector<CurveRow>& rows, const Simulation& simulation, double theta) = nullptr;
+  void (*rows)(std::vector<CurveRow>& rows, const dem_core::Simulation& simulation, double theta) = nullptr;
 };
 
 const std::vector<Mechanism>& all_mechanisms();

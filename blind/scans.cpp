@@ -90,7 +90,7 @@ std::vector<Bridge> measured_bridges(const ScannedSpecimen& specimen, const std:
   Noise noise(specimen.plan.seed, name);
   const double misjudged = noise.misjudged();
   std::map<std::pair<int, int>, double> necks;
-  const auto bonds = standing_bridges(specimen.test.packing);
+  const auto bonds = dem_core::standing_bridges(specimen.test.packing);
   for (std::size_t k = 0; k < bonds.size(); ++k)
     necks[{bonds[k].i, bonds[k].j}] = specimen.test.bodies[k].neck_diameter;
   const double cutoff = specimen.split.sample.bridges.cutoff * specimen.split.sample.beads.diameter;

@@ -31,18 +31,19 @@ bool misread(const CasePlan& plan) {
 }
 
 /// The hooks of the case's mechanism.
-CompressOptions hooks(const CasePlan& plan) {
-  CompressOptions options;
+dem_core::CompressOptions hooks(const CasePlan& plan) {
+  dem_core::CompressOptions options;
   if (plan.mechanism.empty()) return options;
   const Mechanism& mechanism = find_mechanism(plan.mechanism, plan.name);
   const double theta = plan.mechanism_theta;
   if (mechanism.simulation)
-    options.prepare = [&mechanism, theta](Simulation& simulation) {
+    options.prepare = [&mechanism, theta](dem_core::Simulation& simulation) {
       mechanism.simulation(simulation, theta);
     };
   if (mechanism.evolution) options.evolution = {mechanism.memory, mechanism.evolution(theta)};
   if (mechanism.rows)
-    options.read_rows = [&mechanism, theta](std::vector<CurveRow>& rows, const Simulation& simulation) {
+    options.read_rows = [&mechanism, theta](std::vector<CurveRow>& rows,
+                                            const dem_core::Simulation& simulation) {
       mechanism.rows(rows, simulation, theta);
     };
   return options;

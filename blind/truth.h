@@ -32,11 +32,11 @@ struct Scan {
 /// A specimen that was tested, and what its instruments read, before noise.
 struct TrueTest {
   Sample sample;
-  Packing packing;                 ///< that carried the load
-  std::vector<BridgeBody> bodies;  ///< of its standing bridges
-  std::vector<CurveRow> rows;      ///< strain and stress as read, not beyond the test's last strain
-  std::string engine;              ///< that made it, with its version; empty: as the diagnosis does
-  Scan scan;                       ///< where the strain that is read is the scan's; empty: none was made
+  Packing packing;                                 ///< that carried the load
+  std::vector<micromechanics::BridgeBody> bodies;  ///< of its standing bridges
+  std::vector<CurveRow> rows;  ///< strain and stress as read, not beyond the test's last strain
+  std::string engine;          ///< that made it, with its version; empty: as the diagnosis does
+  Scan scan;                   ///< where the strain that is read is the scan's; empty: none was made
 };
 
 /// Compresses a specimen, given as reported, with all that is withheld, by the simulation itself; `number`

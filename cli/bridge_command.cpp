@@ -38,9 +38,9 @@ struct Options {
 };
 
 struct Row {
-  BridgeBody body;
-  Polymer polymer;
-  BridgeStiffness stiffness;
+  micromechanics::BridgeBody body;
+  micromechanics::Polymer polymer;
+  micromechanics::BridgeStiffness stiffness;
 };
 
 constexpr std::size_t kMostRows = 1000000;
@@ -136,13 +136,13 @@ std::vector<Row> figure_rows() {
 }
 
 void solve(std::vector<Row>& rows) {
-  for (const Row& row : rows) check_bridge(row.body, row.polymer);
+  for (const Row& row : rows) micromechanics::check_bridge(row.body, row.polymer);
   Progress progress("bridges", static_cast<double>(rows.size()));
   constexpr std::size_t kBatch = 16;
   for (std::size_t start = 0; start < rows.size(); start += kBatch) {
     for_blocks(std::min(kBatch, rows.size() - start), 1, [&](std::size_t k, std::size_t) {
       Row& row = rows[start + k];
-      row.stiffness = bridge_stiffness(row.body, row.polymer);
+      row.stiffness = micromechanics::bridge_stiffness(row.body, row.polymer);
     });
     stop_if_interrupted();
     progress.update(static_cast<double>(std::min(start + kBatch, rows.size())));
@@ -153,7 +153,7 @@ void warn_outside(const std::vector<Row>& rows) {
   std::size_t outside = 0;
   double worst = 0.0;
   for (const Row& row : rows)
-    if (!within_verified_range(row.body, row.polymer)) {
+    if (!micromechanics::within_verified_range(row.body, row.polymer)) {
       ++outside;
       worst = std::max(worst, row.stiffness.error_estimate);
     }
@@ -174,7 +174,7 @@ std::string csv_of(const std::vector<Row>& rows, const Provenance& where_from) {
                      "axial_stress_average_pa_per_m,mean_stress_centre_pa_per_m,axial_stress_centre_pa_per_m,"
                      "axial_stress_rim_pa_per_m\n";
   for (const Row& row : rows) {
-    const BridgeStiffness& k = row.stiffness;
+    const micromechanics::BridgeStiffness& k = row.stiffness;
     text += fmt::format(
         "{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.9g},{:.9g},{:.9g},{:.9g},{:.2e},{:.8g},{:.6g},{:.6g},{:.6g},{:"
         ".6g},"
@@ -234,7 +234,7 @@ std::string beside(double paper, double ours) {
 /// Table 1 of the paper beside this program.
 void print_table_1() {
   const auto of = [](double neck, double gap, double bead, double modulus) {
-    return bridge_stiffness({neck, gap, bead, bead}, {modulus, kPaperPoissonRatio});
+    return micromechanics::bridge_stiffness({neck, gap, bead, bead}, {modulus, kPaperPoissonRatio});
   };
   fmt::print("Hemmerle et al. 2021, Table 1, beside finite elements (gap 2 um, Poisson ratio 0.49)\n\n");
   fmt::print("{:<10} {:>8} {:>6} {:>6}   {:>31}   {:>31}\n", "", "E_p", "d", "D", "kn (N/m)", "kt (N/m)");
@@ -242,7 +242,8 @@ void print_table_1() {
              "(um)", "paper", "ours", "difference", "paper", "ours", "difference");
   double worst = 0.0;
   for (const auto& s : reproduction::kPaperSpecimens) {
-    const BridgeStiffness k = of(s.neck_diameter, reproduction::kPaperGap, s.bead_diameter, s.youngs_modulus);
+    const micromechanics::BridgeStiffness k =
+        of(s.neck_diameter, reproduction::kPaperGap, s.bead_diameter, s.youngs_modulus);
     worst = std::max(worst, k.error_estimate);
     fmt::print("{:<10} {:>8.3g} {:>6.1f} {:>6.1f}   {}   {}\n", s.name, s.youngs_modulus,
                1e6 * s.neck_diameter, 1e6 * s.bead_diameter, beside(s.normal_stiffness, k.normal),
@@ -255,7 +256,8 @@ void print_table_1() {
     const auto of_tests = [&](double neck) {
       return of(neck, 1e-6 * gap_um, kPaperPipette.bead_diameter, kPaperPipette.youngs_modulus);
     };
-    const BridgeStiffness thin = of_tests(kPaperPipette.thinnest), wide = of_tests(kPaperPipette.widest);
+    const micromechanics::BridgeStiffness thin = of_tests(kPaperPipette.thinnest),
+                                          wide = of_tests(kPaperPipette.widest);
     worst = std::max({worst, thin.error_estimate, wide.error_estimate});
     fmt::print("  gap {:.0f} um: ours kn {:.0f} to {:.0f}, kt {:.1f} to {:.1f} N/m\n", gap_um, thin.normal,
                wide.normal, thin.tangential, wide.tangential);

@@ -70,7 +70,7 @@ void run(const Options& options) {
   const Sample sample = read_sample(options.sample);
   effects::check_effects(sample, options.sample.string());
   warn_of_open_contacts(packing.beads, sample);
-  CompressOptions compress_options;
+  dem_core::CompressOptions compress_options;
   compress_options.resume = options.resume;
   compress_options.provenance = provenance(options.common, {options.packing, options.sample});
   if (options.realisations == 1) {

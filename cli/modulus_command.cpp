@@ -21,7 +21,7 @@ struct Options {
   double strain = 0.03;
 };
 
-std::string in_words(const LinearResponse& response, double strain) {
+std::string in_words(const dem_core::LinearResponse& response, double strain) {
   std::string text = fmt::format("E = {:.2f} MPa at {:.2f} % of platen strain, Poisson ratio {:.3f}",
                                  1e-6 * response.modulus, 100.0 * strain, response.poisson_ratio);
   for (const auto& reason : response.reasons) text += "\n  does not hold strictly: " + reason;
@@ -35,8 +35,8 @@ void run(const Options& options) {
   const Packing packing = read_packing(options.packing);
   warn_of_open_contacts(packing.beads, sample);
   const auto specimen = effects::actual_specimen(packing, sample, options.common.seed);
-  const Simulation simulation = effects::actual_simulation(specimen);
-  const LinearResponse response = linear_response(simulation, {options.strain});
+  const dem_core::Simulation simulation = effects::actual_simulation(specimen);
+  const dem_core::LinearResponse response = dem_core::linear_response(simulation, {options.strain});
   auto json = to_json(response, simulation, options.strain);
   json["diameters"] = to_string(specimen.sample.beads.diameters);
   json["provenance"] = to_json(provenance(options.common, {options.packing, options.sample}));

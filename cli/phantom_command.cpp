@@ -39,10 +39,10 @@ void run(const PhantomOptions& options) {
   std::vector<fs::path> inputs = {options.sample};
   if (!options.packing.empty()) inputs.push_back(options.packing);
   Packing packing = options.packing.empty() ? generated(sample, seed) : read_packing(options.packing);
-  draw_neck_diameters(packing, sample, seed);
+  phantom::draw_neck_diameters(packing, sample, seed);
   packing.provenance = provenance(options.common, inputs);
 
-  const Volume volume = make_phantom(packing, sample.phantom, seed);
+  const Volume volume = phantom::make_phantom(packing, sample.phantom, seed);
   WrittenTogether written;
   if (!options.truth.empty()) write_packing(options.truth, packing);
   write_volume(options.common.out, volume, packing.provenance);

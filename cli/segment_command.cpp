@@ -20,9 +20,9 @@ struct Options {
   double voxel_um = 0.0, min_diameter_um = 0.0;
   std::vector<std::size_t> size;
   std::string type, tone = "auto";
-  double false_discoveries = BridgeOptions().false_discoveries;
+  double false_discoveries = segmentation::BridgeOptions().false_discoveries;
   bool calibrate_bridges = false;
-  SegmentOptions segment;
+  segmentation::SegmentOptions segment;
 };
 
 ReadOptions reading(const Options& options) {
@@ -35,12 +35,12 @@ ReadOptions reading(const Options& options) {
   return reading;
 }
 
-SegmentOptions choices(const Options& options) {
-  SegmentOptions segment = options.segment;
+segmentation::SegmentOptions choices(const Options& options) {
+  segmentation::SegmentOptions segment = options.segment;
   if (!options.bridges.empty()) segment.bridges = {options.false_discoveries, options.calibrate_bridges};
-  segment.tone = options.tone == "bright" ? BeadTone::bright
-                 : options.tone == "dark" ? BeadTone::dark
-                                          : BeadTone::automatic;
+  segment.tone = options.tone == "bright" ? segmentation::BeadTone::bright
+                 : options.tone == "dark" ? segmentation::BeadTone::dark
+                                          : segmentation::BeadTone::automatic;
   if (options.min_diameter_um > 0.0) segment.least_diameter = options.min_diameter_um * 1e-6;
   return segment;
 }
@@ -53,7 +53,7 @@ nlohmann::ordered_json to_json(const Specimen& specimen) {
           {"bottom_um", specimen.bottom * 1e6}};
 }
 
-nlohmann::ordered_json to_json(const BridgeSummary& bridges) {
+nlohmann::ordered_json to_json(const segmentation::BridgeSummary& bridges) {
   nlohmann::ordered_json json = {{"pairs", bridges.pairs},
                                  {"bridges", bridges.bridges},
                                  {"none", bridges.none},
@@ -76,7 +76,7 @@ nlohmann::ordered_json to_json(const BridgeSummary& bridges) {
   return json;
 }
 
-nlohmann::ordered_json summary(const Volume& volume, const Segmentation& result,
+nlohmann::ordered_json summary(const Volume& volume, const segmentation::Segmentation& result,
                                const Provenance& provenance) {
   const auto& levels = result.levels;
   nlohmann::ordered_json json = {
@@ -114,9 +114,9 @@ void run(const Options& options) {
   require_outputs(outputs);
   const Provenance origin = provenance(options.common, {volume_place(options.volume)});
   const Volume volume = read_volume(options.volume, how);
-  const Segmentation result = [&] {
+  const segmentation::Segmentation result = [&] {
     try {
-      return segment(volume, choices(options));
+      return segmentation::segment(volume, choices(options));
     } catch (const BadInput& error) {
       throw BadInput(fmt::format("{}: {}", options.volume.string(), error.what()));
     }
@@ -125,8 +125,9 @@ void run(const Options& options) {
   WrittenTogether written;
   write_beads(out, result.beads, origin);
   if (!options.bridges.empty()) write_bridges(options.bridges, result.beads, result.bridges, origin);
-  if (!options.labels.empty()) write_volume(options.labels, label_volume(volume, result), origin);
-  if (!options.qa.empty()) write_qa(options.qa, volume, result);
+  if (!options.labels.empty())
+    write_volume(options.labels, segmentation::label_volume(volume, result), origin);
+  if (!options.qa.empty()) segmentation::write_qa(options.qa, volume, result);
   write_text(beside(out, ".json"), summary(volume, result, origin).dump(2) + "\n");
   written.commit();
   const auto& measured = result.measured;

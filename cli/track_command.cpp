@@ -23,14 +23,14 @@ constexpr std::size_t kLeastBeads = 10;
 struct Options {
   Common common;
   fs::path before, after, pictures;
-  TrackOptions track;
+  tracking::TrackOptions track;
 };
 
 nlohmann::ordered_json in_um(const Vec3& v) {
   return {1e6 * v.x(), 1e6 * v.y(), 1e6 * v.z()};
 }
 
-nlohmann::ordered_json to_json(const Registration& registration) {
+nlohmann::ordered_json to_json(const tracking::Registration& registration) {
   const Eigen::Matrix3d& r = registration.motion.rotation;
   const Eigen::AngleAxisd turn(r);
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
@@ -49,7 +49,7 @@ nlohmann::ordered_json to_json(const Registration& registration) {
           {"axial_stretch", registration.axial_stretch}};
 }
 
-nlohmann::ordered_json band_of(const Motion& motion) {
+nlohmann::ordered_json band_of(const tracking::Motion& motion) {
   if (!motion.band.found) return nullptr;
   const Vec3& normal = motion.band.normal;
   return {{"normal", {normal.x(), normal.y(), normal.z()}},
@@ -67,7 +67,7 @@ nlohmann::ordered_json listed(const std::vector<Bead>& beads, const std::vector<
 }
 
 nlohmann::ordered_json summary(const std::vector<Bead>& before, const std::vector<Bead>& after,
-                               const Motion& motion, const Provenance& provenance) {
+                               const tracking::Motion& motion, const Provenance& provenance) {
   std::vector<int> loose;
   for (std::size_t k = 0; k < motion.matches.size(); ++k)
     if (motion.loose[k]) loose.push_back(motion.matches[k].before);
@@ -84,7 +84,8 @@ nlohmann::ordered_json summary(const std::vector<Bead>& before, const std::vecto
           {"provenance", pendular::to_json(provenance)}};
 }
 
-viz::Frame frame_of(const std::vector<Bead>& before, const Motion& motion, const Specimen& specimen) {
+viz::Frame frame_of(const std::vector<Bead>& before, const tracking::Motion& motion,
+                    const Specimen& specimen) {
   viz::Frame frame;
   frame.strain = motion.strain;
   frame.stress = std::nan("");
@@ -103,7 +104,7 @@ viz::Frame frame_of(const std::vector<Bead>& before, const Motion& motion, const
 }
 
 void draw(const Options& options, const std::vector<Bead>& before, const std::vector<Bead>& after,
-          const Motion& motion, const Provenance& origin) {
+          const tracking::Motion& motion, const Provenance& origin) {
   make_folder(options.pictures);
   const viz::Frame frame = frame_of(before, motion, specimen_enclosing(after));
   viz::Frame first = frame_of(before, motion, specimen_enclosing(before));
@@ -131,8 +132,8 @@ std::vector<Bead> read_scan(const fs::path& path) {
 }
 
 void report(const Options& options, const std::vector<Bead>& before, const std::vector<Bead>& after,
-            const Motion& motion) {
-  const Registration& registration = motion.registration;
+            const tracking::Motion& motion) {
+  const tracking::Registration& registration = motion.registration;
   say(fmt::format(
       "{} of {} beads found again among {}, turned by {:.2f} degrees, scale {:.5f} +- {:.5f} (by {}), at "
       "a strain of {:.2f} %{}",
@@ -153,17 +154,17 @@ void run(const Options& options) {
   apply(options.common, {options.before, options.after}, {out, beside(out, ".json")});
   const auto before = read_scan(options.before), after = read_scan(options.after);
   const Provenance origin = provenance(options.common, {options.before, options.after});
-  const Motion motion = [&] {
+  const tracking::Motion motion = [&] {
     try {
-      return follow_beads(before, after, options.track);
+      return tracking::follow_beads(before, after, options.track);
     } catch (const BadInput& error) {
       throw BadInput(fmt::format("{}: {}", options.after.string(), error.what()));
     }
   }();
   WrittenTogether written;
-  write_motion(out, before, after, motion, origin);
+  tracking::write_motion(out, before, after, motion, origin);
   if (!options.pictures.empty())
-    draw(options, before, registered(after, motion.registration.motion), motion, origin);
+    draw(options, before, tracking::registered(after, motion.registration.motion), motion, origin);
   write_text(beside(out, ".json"), summary(before, after, motion, origin).dump(2) + "\n");
   written.commit();
   report(options, before, after, motion);

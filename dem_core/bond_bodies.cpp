@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pendular {
+namespace pendular::dem_core {
 
 std::vector<Bridge> standing_bridges(const Packing& packing) {
   std::vector<Bridge> standing;
@@ -12,9 +12,10 @@ std::vector<Bridge> standing_bridges(const Packing& packing) {
   return standing;
 }
 
-std::vector<BridgeBody> bond_bodies(const Packing& packing, const std::vector<Bridge>& standing,
-                                    const Sample& sample) {
-  std::vector<BridgeBody> bodies;
+std::vector<micromechanics::BridgeBody> bond_bodies(const Packing& packing,
+                                                    const std::vector<Bridge>& standing,
+                                                    const Sample& sample) {
+  std::vector<micromechanics::BridgeBody> bodies;
   for (const auto& bridge : standing) {
     const Bead &a = packing.beads[bridge.i], &b = packing.beads[bridge.j];
     const bool own = sample.bridges.stiffness == StiffnessOf::per_bridge && bridge.diameter > 0.0;
@@ -25,4 +26,4 @@ std::vector<BridgeBody> bond_bodies(const Packing& packing, const std::vector<Br
   return bodies;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

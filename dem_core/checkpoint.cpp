@@ -8,7 +8,7 @@
 #include "base/path_kind.h"
 #include "base/progress.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 constexpr char kNewest[] = "checkpoint", kPrevious[] = "checkpoint.previous", kNext[] = "checkpoint.next";
@@ -222,4 +222,4 @@ void remove_checkpoints(const fs::path& folder) {
   for (const char* name : {kNewest, kPrevious, kNext}) fs::remove(folder / name);
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -8,7 +8,7 @@
 #include "dem_core/run_state.h"
 #include "packing/packing.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// Names the work of a run: the hash of what is compressed and how, and of the model's version. `further` is
 /// what changes it beside these, as the seed of what effects draw. Paths, commands and the program's version
@@ -32,4 +32,4 @@ std::optional<RunState> kept_checkpoint(const fs::path& folder, const std::strin
 
 void remove_checkpoints(const fs::path& folder);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

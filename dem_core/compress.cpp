@@ -26,7 +26,7 @@
 #include "packing/touching.h"
 #include "run_folder/run_folder.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -354,4 +354,4 @@ CompressResult compress(const Packing& packing, const Sample& sample, const fs::
   return result;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -11,7 +11,7 @@
 #include "dem_core/observe/curve.h"
 #include "packing/packing.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// The packing that a realisation compresses. Where diameters are drawn (diameters_used()), every bead's is,
 /// as the paper does, and candidate bridges are those below the cut-off for the drawn diameters; measured
@@ -44,4 +44,4 @@ struct CompressResult {
 CompressResult compress(const Packing& packing, const Sample& sample, const fs::path& folder,
                         const CompressOptions& options);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

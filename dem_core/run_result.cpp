@@ -8,7 +8,7 @@
 #include "kinematics/local_strain.h"
 #include "kinematics/shear_band.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 constexpr double kUm = 1e6;  // µm per m
@@ -41,7 +41,7 @@ nlohmann::ordered_json features_json(const std::vector<CurveRow>& rows) {
 
 nlohmann::ordered_json shear_band_json(const Simulation& simulation, double mean_diameter) {
   const auto strains =
-      local_strains(simulation.beads.start, simulation.beads.position, simulation.beads.radius);
+      kinematics::local_strains(simulation.beads.start, simulation.beads.position, simulation.beads.radius);
   const std::vector<int> bonds = bead_contacts(simulation).bonds;
   std::vector<Vec3> positions;  // of beads that still belong to the specimen
   std::vector<double> shear;
@@ -51,7 +51,7 @@ nlohmann::ordered_json shear_band_json(const Simulation& simulation, double mean
     shear.push_back(strains[k].shear);
   }
   if (positions.empty()) return {{"found", false}};
-  const ShearBand band = find_shear_band(positions, shear, mean_diameter);
+  const kinematics::ShearBand band = kinematics::find_shear_band(positions, shear, mean_diameter);
   return {{"found", band.found},
           {"normal", {band.normal.x(), band.normal.y(), band.normal.z()}},
           {"point_um", {kUm * band.point.x(), kUm * band.point.y(), kUm * band.point.z()}},
@@ -130,4 +130,4 @@ nlohmann::ordered_json result_json(const RunState& state, const Sample& sample,
   return json;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

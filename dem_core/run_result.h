@@ -6,7 +6,7 @@
 #include "dem_core/run_state.h"
 #include "run_folder/events.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// The bonds that broke, as a run folder states them. Mode: what of Griffith's criterion was larger; "mixed"
 /// where neither makes up nine tenths of it; "compression" where the bond was shortened.
@@ -15,4 +15,4 @@ std::vector<BreakRow> break_rows(const Simulation& simulation, const std::vector
 /// result.json without the `performance` part, which alone differs between two runs of the same work.
 nlohmann::ordered_json result_json(const RunState& state, const Sample& sample, const Provenance& provenance);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -6,7 +6,7 @@
 #include "dem_core/observe/curve.h"
 #include "dem_core/simulation.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// A compression test under way.
 struct RunState {
@@ -23,4 +23,4 @@ struct RunState {
   } open_row;
 };
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

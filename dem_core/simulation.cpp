@@ -12,7 +12,7 @@
 #include "micromechanics/stiffness.h"
 #include "packing/neighbours.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 // Margins of a listing: what a bead at its present speed moves in so many steps, between two shares of the
@@ -38,7 +38,7 @@ BeadStates bead_states(const Packing& packing, double density) {
   return states;
 }
 
-LawParameters law_parameters(const Sample& sample, const BondStiffness& bond) {
+LawParameters law_parameters(const Sample& sample, const micromechanics::BondStiffness& bond) {
   LawParameters law;
   law.k_glass = sample.contact.stiffness_ratio * bond.normal;
   law.kt_glass = sample.contact.stiffness_ratio * bond.tangential;
@@ -52,8 +52,8 @@ LawParameters law_parameters(const Sample& sample, const BondStiffness& bond) {
   return law;
 }
 
-PairProperties bond_properties(const BridgeBody& body, double height, const BondStiffness& stiffness,
-                               const Sample& sample) {
+PairProperties bond_properties(const micromechanics::BridgeBody& body, double height,
+                               const micromechanics::BondStiffness& stiffness, const Sample& sample) {
   PairProperties pair;
   pair.rest = body.gap;
   pair.touch = std::min(0.0, pair.rest);
@@ -66,14 +66,15 @@ PairProperties bond_properties(const BridgeBody& body, double height, const Bond
 void add_bonds(Simulation& simulation, const Packing& packing, const Sample& sample) {
   const auto standing = standing_bridges(packing);
   const auto bodies = bond_bodies(packing, standing, sample);
-  const auto stiffness = bond_stiffnesses(sample, bodies);
+  const auto stiffness = micromechanics::bond_stiffnesses(sample, bodies);
   for (std::size_t k = 0; k < standing.size(); ++k) {
     Pair pair;
     pair.i = standing[k].i;
     pair.j = standing[k].j;
     pair.bond = static_cast<int>(k);
-    const BridgeBody& body = bodies[k];
-    const double height = rim_height(body.gap, body.diameter_i, body.diameter_j, body.neck_diameter);
+    const micromechanics::BridgeBody& body = bodies[k];
+    const double height =
+        micromechanics::rim_height(body.gap, body.diameter_i, body.diameter_j, body.neck_diameter);
     pair.properties = bond_properties(body, height, stiffness[k], sample);
     simulation.bonds.push_back({pair.i, pair.j, false, height});
     simulation.pairs.push_back(pair);
@@ -132,7 +133,7 @@ double BeadStates::mean_diameter() const {
 
 double platen_speed(const Sample& sample) {
   if (sample.compression.speed_si) return *sample.compression.speed_si;
-  const double k_glass = sample.contact.stiffness_ratio * bond_stiffness(sample).normal;
+  const double k_glass = sample.contact.stiffness_ratio * micromechanics::bond_stiffness(sample).normal;
   return sample.compression.speed * sample.beads.diameter *
          std::sqrt(k_glass / ball_mass(sample.beads.density, sample.beads.diameter));
 }
@@ -164,7 +165,7 @@ double time_step(const Simulation& simulation, double fraction) {
 Simulation build_simulation(const Packing& packing, const Sample& sample) {
   if (packing.beads.size() < 2)
     bad_input("packing: found {} bead(s), expected at least two", packing.beads.size());
-  const BondStiffness stiffness = bond_stiffness(sample);
+  const micromechanics::BondStiffness stiffness = micromechanics::bond_stiffness(sample);
   Simulation simulation;
   simulation.beads = bead_states(packing, sample.beads.density);
   simulation.law = law_parameters(sample, stiffness);
@@ -267,4 +268,4 @@ BeadContacts bead_contacts(const Simulation& simulation) {
   return count;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

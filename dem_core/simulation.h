@@ -8,7 +8,7 @@
 #include "dem_core/law/platen.h"
 #include "packing/packing.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// Beads of a running simulation, in the packing's order; SI. Velocities are half a step behind positions
 /// (leapfrog), what pairs remember is one step behind.
@@ -131,4 +131,4 @@ struct BeadContacts {
 };
 BeadContacts bead_contacts(const Simulation& simulation);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kLostAtEnd = 0.9;
 
-std::function<void(const BondMoment&)> evolution(const ActualSpecimen&, double theta) {
-  return [theta](const BondMoment& bond) {
+std::function<void(const dem_core::BondMoment&)> evolution(const ActualSpecimen&, double theta) {
+  return [theta](const dem_core::BondMoment& bond) {
     const double life = std::min(griffith_length(bond) / std::sqrt(bond.properties.break_limit), 1.0);
     const double lost = kLostAtEnd * std::max(0.0, (life - (1.0 - theta)) / theta);
     weaken(bond, std::max(lost, bond.memory[0]), bond.memory[0]);

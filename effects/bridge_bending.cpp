@@ -4,8 +4,9 @@
 namespace pendular::effects {
 namespace {
 
-void stiffen(Simulation& simulation, const ActualSpecimen& specimen, double theta, const Draws&) {
-  const auto bonds = bridge_stiffnesses(specimen.bodies, polymer_of(specimen.sample)).bonds;
+void stiffen(dem_core::Simulation& simulation, const ActualSpecimen& specimen, double theta, const Draws&) {
+  const auto bonds =
+      micromechanics::bridge_stiffnesses(specimen.bodies, micromechanics::polymer_of(specimen.sample)).bonds;
   simulation.law.bending = true;
   for (auto& pair : simulation.pairs) {
     if (pair.bond < 0) continue;

@@ -9,7 +9,8 @@ namespace {
 constexpr double kFarthest = 0.75;
 constexpr double kThickest = 0.8;  // over D
 
-void spread(BridgeBody& body, const Sample& sample, double theta, const Draws& draws, std::uint64_t pair) {
+void spread(micromechanics::BridgeBody& body, const Sample& sample, double theta, const Draws& draws,
+            std::uint64_t pair) {
   const double d = body.neck_diameter, farthest = kFarthest * d;
   body.neck_diameter = std::min(d + std::clamp(1e-6 * theta * draws.normal(pair), -farthest, farthest),
                                 std::max(d, kThickest * sample.beads.diameter));

@@ -9,7 +9,8 @@ namespace {
 // Over D. A longer bridge carries next to nothing, and finite elements would have to be tabulated for it.
 constexpr double kLongest = 0.2;
 
-void spread(BridgeBody& body, const Sample& sample, double theta, const Draws& draws, std::uint64_t pair) {
+void spread(micromechanics::BridgeBody& body, const Sample& sample, double theta, const Draws& draws,
+            std::uint64_t pair) {
   const double excess = -1e-6 * theta * std::log(draws.uniform(pair));
   body.gap = std::min(body.gap + excess, std::max(body.gap, kLongest * sample.beads.diameter));
 }

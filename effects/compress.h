@@ -18,11 +18,12 @@ std::vector<Bead> actual_beads(std::vector<Bead> measured, const Sample& believe
 Packing reading(const Packing& actual, const Sample& believed, std::uint64_t seed);
 
 /// It between its platens, before its test: build_simulation() and the effects on it.
-Simulation actual_simulation(const ActualSpecimen& specimen);
+dem_core::Simulation actual_simulation(const ActualSpecimen& specimen);
 
 /// compress() of that specimen, as its instruments report it. Without effects bitwise the same as realise()
 /// and compress().
-CompressResult compress_with_effects(const Packing& measured, const Sample& believed, std::uint64_t seed,
-                                     const fs::path& folder, CompressOptions options);
+dem_core::CompressResult compress_with_effects(const Packing& measured, const Sample& believed,
+                                               std::uint64_t seed, const fs::path& folder,
+                                               dem_core::CompressOptions options);
 
 }  // namespace pendular::effects

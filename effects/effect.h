@@ -46,7 +46,7 @@ struct ActualSpecimen {
   Packing packing;  ///< likewise
   std::uint64_t seed = 1;
   /// Of each bond to be (Simulation::bonds): what its stiffness follows from, without and with the effects.
-  std::vector<BridgeBody> believed_bodies, bodies;
+  std::vector<micromechanics::BridgeBody> believed_bodies, bodies;
 };
 
 /// What turns travel and force into strain and stress.
@@ -98,15 +98,16 @@ struct Effect {
   std::function<void(Packing& packing, double theta, const Draws& draws)> packing = nullptr;
   /// What becomes of one bridge; `pair` is its counter. Its stiffness changes by the ratio that finite
   /// elements give.
-  std::function<void(BridgeBody& body, const Sample& sample, double theta, const Draws& draws,
+  std::function<void(micromechanics::BridgeBody& body, const Sample& sample, double theta, const Draws& draws,
                      std::uint64_t pair)>
       body = nullptr;
   /// What becomes of the specimen before its test.
-  std::function<void(Simulation& simulation, const ActualSpecimen& specimen, double theta,
+  std::function<void(dem_core::Simulation& simulation, const ActualSpecimen& specimen, double theta,
                      const Draws& draws)>
       simulation = nullptr;
   /// How bonds change as the test goes on, and how many numbers each remembers for that.
-  std::function<std::function<void(const BondMoment&)>(const ActualSpecimen& specimen, double theta)>
+  std::function<std::function<void(const dem_core::BondMoment&)>(const ActualSpecimen& specimen,
+                                                                 double theta)>
       evolution = nullptr;
   std::size_t memory = 0;
   /// What the instruments make of the rows.
@@ -116,8 +117,8 @@ struct Effect {
 
   /// The same as `evolution` of all standing bonds at once, sorted by their number, after that of single
   /// ones.
-  std::function<std::function<void(std::span<const BondMoment>)>(const ActualSpecimen& specimen,
-                                                                 double theta)>
+  std::function<std::function<void(std::span<const dem_core::BondMoment>)>(const ActualSpecimen& specimen,
+                                                                           double theta)>
       evolution_of_all = nullptr;
   /// Of an effect that is no part of the library: what it does, as text or a digest; part of its runs' hash.
   std::string code = {};

@@ -8,7 +8,7 @@
 namespace pendular::effects {
 namespace {
 
-void thin(BridgeBody& body, const Sample& sample, double theta, const Draws&, std::uint64_t) {
+void thin(micromechanics::BridgeBody& body, const Sample& sample, double theta, const Draws&, std::uint64_t) {
   const double content = sample.bridges.polymer_content, above = content - kFunicularContent;
   if (above > 0.0) body.neck_diameter *= std::sqrt((content - theta * above) / content);
 }

@@ -5,7 +5,7 @@
 namespace pendular::effects {
 namespace {
 
-void change(Simulation& simulation, const ActualSpecimen&, double theta, const Draws& draws) {
+void change(dem_core::Simulation& simulation, const ActualSpecimen&, double theta, const Draws& draws) {
   const double spread = 0.5 * std::fabs(theta);
   for (auto& pair : simulation.pairs)
     if (pair.bond >= 0)

@@ -5,12 +5,12 @@
 namespace pendular::effects {
 namespace {
 
-void roughen(Simulation& simulation, const ActualSpecimen&, double theta, const Draws& draws) {
+void roughen(dem_core::Simulation& simulation, const ActualSpecimen&, double theta, const Draws& draws) {
   std::uint64_t counter = 0;
-  for (Platen* platen : {&simulation.bottom, &simulation.top})
+  for (dem_core::Platen* platen : {&simulation.bottom, &simulation.top})
     for (double& relief : platen->relief) relief += 1e-6 * theta * std::fabs(draws.normal(counter++));
-  place_platens(simulation, simulation.bottom.velocity);
-  list_pairs(simulation);
+  dem_core::place_platens(simulation, simulation.bottom.velocity);
+  dem_core::list_pairs(simulation);
 }
 
 }  // namespace

@@ -5,12 +5,12 @@
 namespace pendular::effects {
 namespace {
 
-void tilt(Simulation& simulation, const ActualSpecimen& specimen, double theta, const Draws&) {
+void tilt(dem_core::Simulation& simulation, const ActualSpecimen& specimen, double theta, const Draws&) {
   const double slope = std::tan(theta * M_PI / 180.0), axis = specimen.packing.specimen.axis_x;
   for (std::size_t k = 0; k < simulation.beads.size(); ++k)
     simulation.top.relief[k] += slope * (simulation.beads.position[k].x() - axis);
-  place_platens(simulation, simulation.bottom.velocity);
-  list_pairs(simulation);
+  dem_core::place_platens(simulation, simulation.bottom.velocity);
+  dem_core::list_pairs(simulation);
 }
 
 }  // namespace

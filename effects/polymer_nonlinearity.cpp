@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kLargestLoss = 0.95;
 
-std::function<void(const BondMoment&)> evolution(const ActualSpecimen&, double theta) {
-  return [theta](const BondMoment& bond) {
+std::function<void(const dem_core::BondMoment&)> evolution(const ActualSpecimen&, double theta) {
+  return [theta](const dem_core::BondMoment& bond) {
     const double strain = griffith_length(bond) / bond.height;
     weaken(bond, std::min(0.5 * theta * strain, kLargestLoss), bond.memory[0]);
   };

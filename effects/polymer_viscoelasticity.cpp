@@ -13,7 +13,7 @@ constexpr double kRelaxationStrain = 0.01;  // of the platen, at the stated spee
 struct Creep {
   double theta, time;
 
-  void operator()(const BondMoment& bond) const {
+  void operator()(const dem_core::BondMoment& bond) const {
     const double share = -std::expm1(-bond.elapsed / time);
     double& normal = bond.memory[0];
     const double moved = share * (bond.stretch - (1.0 - theta) * normal);
@@ -24,15 +24,15 @@ struct Creep {
     crept -= crept.dot(bond.normal) * bond.normal;  // the contact plane has turned
     const Vec3 slid = share * (slip - (1.0 - theta) * crept);
     crept += slid;
-    bond.history.bond_slip = triple(slip - theta * slid);
+    bond.history.bond_slip = dem_core::triple(slip - theta * slid);
     for (int axis = 0; axis < 3; ++axis) bond.memory[1 + axis] = crept[axis];
   }
 };
 
-std::function<void(const BondMoment&)> evolution(const ActualSpecimen& specimen, double theta) {
+std::function<void(const dem_core::BondMoment&)> evolution(const ActualSpecimen& specimen, double theta) {
   const Sample& stated = specimen.believed;
   return Creep{theta, stated.bridges.relaxation_time.value_or(kRelaxationStrain * stated.specimen.height /
-                                                              platen_speed(stated))};
+                                                              dem_core::platen_speed(stated))};
 }
 
 }  // namespace

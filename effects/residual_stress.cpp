@@ -6,17 +6,17 @@ namespace pendular::effects {
 namespace {
 
 /// Away from the platens, until the forces balance.
-void settle(Simulation& simulation, double unbalanced) {
+void settle(dem_core::Simulation& simulation, double unbalanced) {
   const double away = simulation.beads.mean_diameter();
   simulation.bottom.z -= away, simulation.top.z += away;
   simulation.bottom.velocity = 0.0;
-  list_pairs(simulation);
-  Stepper stepper(simulation);
-  if (!come_to_rest(simulation, stepper, unbalanced))
+  dem_core::list_pairs(simulation);
+  dem_core::Stepper stepper(simulation);
+  if (!dem_core::come_to_rest(simulation, stepper, unbalanced))
     throw Interrupted("interrupted while the specimen settles under its residual stress");
 }
 
-void shrink(Simulation& simulation, const ActualSpecimen& specimen, double theta, const Draws&) {
+void shrink(dem_core::Simulation& simulation, const ActualSpecimen& specimen, double theta, const Draws&) {
   for (auto& pair : simulation.pairs)
     if (pair.bond >= 0)
       pair.properties.rest -= theta * simulation.bonds[static_cast<std::size_t>(pair.bond)].height;
@@ -27,9 +27,9 @@ void shrink(Simulation& simulation, const ActualSpecimen& specimen, double theta
   simulation.steps = 0;
   for (auto& event : simulation.events) event.strain = 0.0;
   simulation.work = {};
-  simulation.work.given = energies(simulation).elastic;
-  place_platens(simulation, speed);
-  list_pairs(simulation);
+  simulation.work.given = dem_core::energies(simulation).elastic;
+  dem_core::place_platens(simulation, speed);
+  dem_core::list_pairs(simulation);
 }
 
 }  // namespace

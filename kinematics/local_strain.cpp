@@ -6,7 +6,7 @@
 
 #include "packing/neighbours.h"
 
-namespace pendular {
+namespace pendular::kinematics {
 
 std::vector<LocalStrain> local_strains(const std::vector<Vec3>& start, const std::vector<Vec3>& now,
                                        const std::vector<double>& radii) {
@@ -40,4 +40,4 @@ std::vector<LocalStrain> local_strains(const std::vector<Vec3>& start, const std
   return strains;
 }
 
-}  // namespace pendular
+}  // namespace pendular::kinematics

@@ -4,7 +4,7 @@
 
 #include "base/vec3.h"
 
-namespace pendular {
+namespace pendular::kinematics {
 
 /// Deformation of a bead's surroundings.
 struct LocalStrain {
@@ -19,4 +19,4 @@ struct LocalStrain {
 std::vector<LocalStrain> local_strains(const std::vector<Vec3>& start, const std::vector<Vec3>& now,
                                        const std::vector<double>& radii);
 
-}  // namespace pendular
+}  // namespace pendular::kinematics

@@ -6,7 +6,7 @@
 
 #include "base/quantile.h"
 
-namespace pendular {
+namespace pendular::kinematics {
 namespace {
 
 constexpr int kDirections = 600;
@@ -115,4 +115,4 @@ ShearBand find_shear_band(const std::vector<Vec3>& positions, const std::vector<
   return band;
 }
 
-}  // namespace pendular
+}  // namespace pendular::kinematics

@@ -4,7 +4,7 @@
 
 #include "base/vec3.h"
 
-namespace pendular {
+namespace pendular::kinematics {
 
 /// The plane along which shear strain concentrates.
 struct ShearBand {
@@ -22,4 +22,4 @@ struct ShearBand {
 ShearBand find_shear_band(const std::vector<Vec3>& positions, const std::vector<double>& shear,
                           double mean_diameter);
 
-}  // namespace pendular
+}  // namespace pendular::kinematics

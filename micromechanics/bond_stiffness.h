@@ -1,6 +1,6 @@
 #pragma once
 
-namespace pendular {
+namespace pendular::micromechanics {
 
 /// Stiffness of one bond between two beads.
 struct BondStiffness {
@@ -10,4 +10,4 @@ struct BondStiffness {
   double twisting = 0.0;  ///< N m/rad: about the bond's axis
 };
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

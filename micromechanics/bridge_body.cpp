@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace pendular {
+namespace pendular::micromechanics {
 namespace {
 
 /// Height of the cap of a ball of diameter D cut by a cylinder of diameter d on its axis.
@@ -28,4 +28,4 @@ double bridge_volume(double gap, double diameter_i, double diameter_j, double ne
          cap_volume(diameter_i, neck_diameter) - cap_volume(diameter_j, neck_diameter);
 }
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace pendular {
+namespace pendular::micromechanics {
 
 /// The body of one bridge (paper, Sec. 2.3): a cylinder of diameter d on the line of the centres of two
 /// beads, truncated by their caps. Lengths in m.
@@ -17,4 +17,4 @@ double rim_height(double gap, double diameter_i, double diameter_j, double neck_
 /// Volume of polymer in the bridge, m³: cylinder of the rim's height minus both caps. Requires d < D_i, D_j.
 double bridge_volume(double gap, double diameter_i, double diameter_j, double neck_diameter);
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace pendular {
+namespace pendular::micromechanics {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -59,4 +59,4 @@ ShapeOperators BridgeElements::at(int a, int b, const VectorXd& radial_points,
   return shape;
 }
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

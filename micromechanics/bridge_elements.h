@@ -6,7 +6,7 @@
 #include "micromechanics/bridge_grid.h"
 #include "micromechanics/polynomials.h"
 
-namespace pendular {
+namespace pendular::micromechanics {
 
 /// What strains in a body of revolution are made of: a displacement component's derivatives along r and z,
 /// and the component over r.
@@ -58,4 +58,4 @@ class BridgeElements {
   std::vector<Eigen::MatrixXd> products_;
 };
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

@@ -8,7 +8,7 @@
 #include "micromechanics/bridge_field.h"
 #include "micromechanics/fronts.h"
 
-namespace pendular {
+namespace pendular::micromechanics {
 namespace {
 
 using Eigen::Index;
@@ -303,4 +303,4 @@ BondStiffness bridge_stiffness_on(const BridgeBody& body, const Polymer& polymer
   return in_si(solve(elements, Solution(elements, stretch_field(), law), law), body, polymer.youngs_modulus);
 }
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

@@ -4,7 +4,7 @@
 #include "micromechanics/bridge_body.h"
 #include "micromechanics/bridge_grid.h"
 
-namespace pendular {
+namespace pendular::micromechanics {
 
 /// Linear elastic, isotropic.
 struct Polymer {
@@ -55,4 +55,4 @@ BridgeStiffness bridge_stiffness(const BridgeBody& body, const Polymer& polymer)
 BondStiffness bridge_stiffness_on(const BridgeBody& body, const Polymer& polymer,
                                   const BridgeResolution& resolution);
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

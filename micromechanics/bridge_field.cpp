@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace pendular {
+namespace pendular::micromechanics {
 namespace {
 
 using Eigen::MatrixXd;
@@ -72,4 +72,4 @@ MatrixXd elasticity(double nu) {
   return law;
 }
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

@@ -6,7 +6,7 @@
 
 #include "micromechanics/bridge_elements.h"
 
-namespace pendular {
+namespace pendular::micromechanics {
 
 /// Strains in cylindrical coordinates, the last three engineering shear strains.
 enum Strain { e_rr, e_tt, e_zz, g_rt, g_rz, g_tz, strains };
@@ -38,4 +38,4 @@ BridgeField shear_and_bend_field();
 /// Hooke's law, strains × strains, for Young's modulus 1.
 Eigen::MatrixXd elasticity(double poisson_ratio);
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

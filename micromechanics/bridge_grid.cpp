@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace pendular {
+namespace pendular::micromechanics {
 namespace {
 
 double cap_height(double sphere, double r) {
@@ -78,4 +78,4 @@ BridgeGrid bridge_grid(const BridgeBody& body, const BridgeResolution& resolutio
   return grid;
 }
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

@@ -4,7 +4,7 @@
 
 #include "micromechanics/bridge_body.h"
 
-namespace pendular {
+namespace pendular::micromechanics {
 
 /// How finely a bridge is divided. The defaults give the accuracy stated at bridge_stiffness().
 struct BridgeResolution {
@@ -39,4 +39,4 @@ struct BridgeGrid {
 /// with fewer, so that a stiffness falls towards the exact one.
 BridgeGrid bridge_grid(const BridgeBody& body, const BridgeResolution& resolution);
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

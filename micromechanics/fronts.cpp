@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 
-namespace pendular {
+namespace pendular::micromechanics {
 namespace {
 
 Eigen::VectorXd gather(const Eigen::VectorXd& values, const std::vector<int>& unknowns) {
@@ -53,4 +53,4 @@ void Elimination::substitute_back(Eigen::VectorXd& values) const {
   }
 }
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

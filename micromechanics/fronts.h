@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-namespace pendular {
+namespace pendular::micromechanics {
 
 /// Part of a symmetric positive definite system: a dense matrix over some unknowns, named by number.
 struct Front {
@@ -48,4 +48,4 @@ class Elimination {
   std::vector<Step> steps_;
 };
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-namespace pendular {
+namespace pendular::micromechanics {
 namespace {
 
 /// Eigenvalues, rising, and eigenvectors of the Jacobi matrix with zero diagonal and the given off-diagonal.
@@ -54,4 +54,4 @@ LagrangeValues lagrange(const Eigen::VectorXd& nodes, const Eigen::VectorXd& poi
   return result;
 }
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-namespace pendular {
+namespace pendular::micromechanics {
 
 /// Points and weights of a quadrature on [0, 1].
 struct Quadrature {
@@ -23,4 +23,4 @@ struct LagrangeValues {
 };
 LagrangeValues lagrange(const Eigen::VectorXd& nodes, const Eigen::VectorXd& points);
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

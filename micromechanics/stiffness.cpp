@@ -7,7 +7,7 @@
 #include "base/progress.h"
 #include "micromechanics/stiffness_table.h"
 
-namespace pendular {
+namespace pendular::micromechanics {
 
 Polymer polymer_of(const Sample& sample) {
   return {sample.bridges.youngs_modulus, sample.bridges.poisson_ratio};
@@ -62,4 +62,4 @@ std::vector<BondStiffness> bond_stiffnesses(const Sample& sample, std::span<cons
   return std::move(each.bonds);
 }
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

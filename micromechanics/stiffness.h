@@ -9,7 +9,7 @@
 #include "micromechanics/bridge_body.h"
 #include "micromechanics/bridge_fe.h"
 
-namespace pendular {
+namespace pendular::micromechanics {
 
 /// A sample's polymer, and the body of its mean bridge: mean d and D, and the gap for which stiffness holds.
 Polymer polymer_of(const Sample& sample);
@@ -37,4 +37,4 @@ BridgeStiffnesses bridge_stiffnesses(std::span<const BridgeBody> bodies, const P
 /// error passes 0.1 %. BadInput where a sample asks for the latter and states kn or kt.
 std::vector<BondStiffness> bond_stiffnesses(const Sample& sample, std::span<const BridgeBody> bodies);
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

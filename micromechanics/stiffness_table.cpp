@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "micromechanics/polynomials.h"
 
-namespace pendular {
+namespace pendular::micromechanics {
 namespace {
 
 using Eigen::Index;
@@ -154,4 +154,4 @@ BondStiffness StiffnessTable::at(const BridgeBody& body) const {
   return {force * k[0], force * k[1], moment * k[2], moment * k[3]};
 }
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

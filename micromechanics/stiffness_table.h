@@ -8,7 +8,7 @@
 #include "micromechanics/bridge_body.h"
 #include "micromechanics/bridge_fe.h"
 
-namespace pendular {
+namespace pendular::micromechanics {
 
 /// Gap over the bead diameter below which a bridge is taken to have this gap: touching beads have no finite
 /// stiffness, and below a thousandth of D a real bead's roughness decides.
@@ -66,4 +66,4 @@ class StiffnessTable {
   std::size_t solutions_ = 0;
 };
 
-}  // namespace pendular
+}  // namespace pendular::micromechanics

@@ -15,7 +15,7 @@
 #include "phantom/phantom_blur.h"
 #include "phantom/phantom_raster.h"
 
-namespace pendular {
+namespace pendular::phantom {
 namespace {
 
 constexpr int slab = 16;  // slices finished together
@@ -307,4 +307,4 @@ Volume make_phantom(const Packing& packing, const Sample::Phantom& settings, std
   return volume;
 }
 
-}  // namespace pendular
+}  // namespace pendular::phantom

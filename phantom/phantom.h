@@ -6,7 +6,7 @@
 #include "packing/packing.h"
 #include "volume/volume.h"
 
-namespace pendular {
+namespace pendular::phantom {
 
 /// Turns every candidate of the packing into a bridge and gives every bridge that has none a neck diameter
 /// drawn from N(bridges.diameter, bridges.diameter_sd), truncated to [0.2, 0.9] of the smaller bead.
@@ -35,4 +35,4 @@ void draw_neck_diameters(Packing& packing, const Sample& sample, std::uint64_t s
 /// volume would not fit into memory.
 Volume make_phantom(const Packing& packing, const Sample::Phantom& settings, std::uint64_t seed);
 
-}  // namespace pendular
+}  // namespace pendular::phantom

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pendular {
+namespace pendular::phantom {
 namespace {
 
 int wrapped(int k, int size) {
@@ -70,4 +70,4 @@ void SliceRing::smoothed(int z, std::size_t first, const GaussianKernel& kernel,
                kernel.weights[static_cast<std::size_t>(k)], out.size());
 }
 
-}  // namespace pendular
+}  // namespace pendular::phantom

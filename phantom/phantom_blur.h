@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace pendular {
+namespace pendular::phantom {
 
 /// Half of a sampled Gaussian of standard deviation `sd` voxels, weights[0] in the middle, cut off at 4 sd,
 /// its whole summing to 1. Its variance is sd² within 1 % for sd ≥ 0.45; sd = 0 leaves an image as it is.
@@ -44,4 +44,4 @@ class SliceRing {
   std::vector<float> data_;
 };
 
-}  // namespace pendular
+}  // namespace pendular::phantom

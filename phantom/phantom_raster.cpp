@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pendular {
+namespace pendular::phantom {
 namespace {
 
 constexpr double tails = 4.5;  // standard deviations beyond which a Gaussian is left out: 3e-6 of an edge
@@ -203,4 +203,4 @@ double half_space_share(double depth, const Sharpness& sharpness) {
   return sum / static_cast<double>(sharpness.offsets.size());
 }
 
-}  // namespace pendular
+}  // namespace pendular::phantom

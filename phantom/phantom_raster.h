@@ -7,7 +7,7 @@
 
 #include "base/vec3.h"
 
-namespace pendular {
+namespace pendular::phantom {
 
 /// A solid ball; lengths in voxels, voxel (i, j, k) being the unit cube centred on (i, j, k).
 struct Ball {
@@ -71,4 +71,4 @@ double disc_share(double x, double y, double radius, const Sharpness& sharpness)
 /// The share of a voxel `depth` inside the face of a half-space, the face square to an axis.
 double half_space_share(double depth, const Sharpness& sharpness);
 
-}  // namespace pendular
+}  // namespace pendular::phantom

@@ -9,8 +9,8 @@
 namespace pendular::reproduction {
 namespace {
 
-BridgeStiffness stiffness(double neck, double gap, double bead, double modulus) {
-  return bridge_stiffness({neck, gap, bead, bead}, {modulus, kPaperPoissonRatio});
+micromechanics::BridgeStiffness stiffness(double neck, double gap, double bead, double modulus) {
+  return micromechanics::bridge_stiffness({neck, gap, bead, bead}, {modulus, kPaperPoissonRatio});
 }
 
 Comparison beside(const std::string& quantity, double paper, double ours) {

@@ -16,7 +16,7 @@ std::vector<std::string> behaviour_of(const Point& point) {
   const Sample& sample = point.sample;
   Sample mean = sample;
   mean.bridges.stiffness = StiffnessOf::one;
-  const double unit = bond_stiffness(mean).normal / sample.beads.diameter;
+  const double unit = micromechanics::bond_stiffness(mean).normal / sample.beads.diameter;
   const Spread e = spread_of(point, modulus);
   return {std::to_string(point.runs.size()),
           in_words(spread_of(point, coordination_number), 1.0, 2),

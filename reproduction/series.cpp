@@ -28,7 +28,7 @@ std::vector<Entry> entries_of(const std::vector<Point>& points) {
   for (const auto& point : points) {
     const auto& bridges = point.sample.bridges;
     entries.push_back({bridges.gap, bridges.youngs_modulus, bridges.polymer_content,
-                       bond_stiffness(point.sample).normal, point.sample.beads.diameter,
+                       micromechanics::bond_stiffness(point.sample).normal, point.sample.beads.diameter,
                        spread_of(point, modulus), spread_of(point, slope_at_fixed_strain),
                        spread_of(point, linear_limit)});
   }

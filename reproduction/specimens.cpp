@@ -98,11 +98,12 @@ Section specimen_section(const Desk& desk, const std::string& name, const Point&
                   "the platen's strain since first touch, the linear limit counts from where the line "
                   "meets zero stress.",
                   1e3 * point.sample.specimen.diameter, 1e3 * point.sample.specimen.height,
-                  point.sample.specimen.volume_fraction, bond_stiffness(point.sample).normal)};
+                  point.sample.specimen.volume_fraction,
+                  micromechanics::bond_stiffness(point.sample).normal)};
   if (point.runs.empty()) return section;
   section.comparisons = comparisons_of(point);
   if (name == "A") {
-    const double speed = platen_speed(point.sample);
+    const double speed = dem_core::platen_speed(point.sample);
     section.comparisons.push_back({"platen speed at 1e-4 in model units", "46.4 mm/s",
                                    fmt::format("{:.2f} mm/s", 1e3 * speed),
                                    within(speed / kPaperPlatenSpeed, 0.99, 1.01)});
@@ -125,8 +126,8 @@ Section coordination_section(const Desk& desk, sweep::Store& store, std::span<co
   for (std::size_t s = 0; s < specimens.size(); ++s) {
     if (specimens[s].requests.empty()) continue;
     const auto& request = specimens[s].requests.front();
-    const Packing packing =
-        realise(read_packing(store.packing_path(sweep::packing_hash(request))), request.sample, request.seed);
+    const Packing packing = dem_core::realise(read_packing(store.packing_path(sweep::packing_hash(request))),
+                                              request.sample, request.seed);
     const double mean = request.sample.beads.diameter;
     const auto statistics = packing_statistics(packing, request.sample.bridges.cutoff * mean);
     auto& curve = series.emplace_back();

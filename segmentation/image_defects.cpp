@@ -10,7 +10,7 @@
 #include "base/quantile.h"
 #include "segmentation/thresholds.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 /// Of some rows of a slice.
@@ -128,4 +128,4 @@ std::vector<std::string> image_defects(const Volume& volume, const Histogram& hi
   return defects;
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -5,10 +5,10 @@
 
 #include "segmentation/search/grey_levels.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// What is suspect about a volume, a line each: grey values that look cut off at either end (`histogram`, of
 /// all voxels that count), and slices that hold one value, repeat the one before, or do not follow from it.
 std::vector<std::string> image_defects(const Volume& volume, const Histogram& histogram);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -7,7 +7,7 @@
 #include "segmentation/rows.h"
 #include "segmentation/segment.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 /// Beads by cubic cells of the volume; each cell knows every bead that may own one of its voxels.
@@ -101,4 +101,4 @@ Volume label_volume(const Volume& volume, const Segmentation& segmentation) {
   return labels;
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 std::pair<std::size_t, std::size_t> row_within(const Volume& volume, const std::optional<Specimen>& specimen,
                                                std::size_t j, std::size_t k) {
@@ -43,4 +43,4 @@ double porosity_of(const Volume& volume, const std::optional<Specimen>& specimen
   return sum(all) > 0.0 ? sum(air) / sum(all) : 0.0;
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

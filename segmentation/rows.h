@@ -6,7 +6,7 @@
 #include "packing/packing.h"
 #include "volume/volume.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// The voxels [first, last) of row (j, k) whose centres lie in the specimen; without one, the whole row.
 std::pair<std::size_t, std::size_t> row_within(const Volume& volume, const std::optional<Specimen>& specimen,
@@ -16,4 +16,4 @@ std::pair<std::size_t, std::size_t> row_within(const Volume& volume, const std::
 double porosity_of(const Volume& volume, const std::optional<Specimen>& specimen, double threshold,
                    bool bright_beads);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -17,7 +17,7 @@
 #include "segmentation/thresholds.h"
 #include "volume/resample.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 double quality_of(const BallFit& fit, const Noise& noise) {
@@ -189,4 +189,4 @@ Segmentation segment(const Volume& volume, const SegmentOptions& options) {
   return segmented(finer, search_with(finer, options), options, defects);
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

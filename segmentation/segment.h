@@ -9,7 +9,7 @@
 #include "segmentation/search/bead_search.h"
 #include "volume/volume.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 struct SegmentOptions {
   double cutoff = 0.064;                 ///< candidate bridges have gaps below cutoff × mean diameter
@@ -48,4 +48,4 @@ Segmentation segment(const Volume& volume, const SegmentOptions& options = {});
 /// least. uint16, or uint32 beyond 65,535 bodies.
 Volume label_volume(const Volume& volume, const Segmentation& segmentation);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

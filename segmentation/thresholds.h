@@ -1,6 +1,6 @@
 #pragma once
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// What decides in the segmentation: whether something is a bead, a wall, a ring, a neck, or suspect. Numbers
 /// that size a computation (bins, blocks, steps) stand where they are used. In brackets the tests, named as
@@ -45,4 +45,4 @@ struct SegmentationThresholds {
 
 inline constexpr SegmentationThresholds kThresholds;
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

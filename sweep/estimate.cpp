@@ -25,7 +25,7 @@ Estimate estimate(std::span<const RunRequest> requests) {
   for (const auto& request : requests) {
     const auto& compression = request.sample.compression;
     const double beads = beads_of(request);
-    total.particle_steps += beads * expected_steps(request.sample);
+    total.particle_steps += beads * dem_core::expected_steps(request.sample);
     total.bytes += kBytesPerRow * compression.rows_per_strain * compression.max_strain;
     if (request.keep_all)
       total.bytes += beads * (kBytesPerBeadAndFrame * (compression.frames + 1.0) + kBytesPerBeadOfCheckpoint);

@@ -112,7 +112,7 @@ void make(Store& store, const std::string& hash) {
   write_text(folder / "request.json", request_text(request));
   write_text(folder / "sample.toml", sample_text(request.sample));
 
-  CompressOptions options;
+  dem_core::CompressOptions options;
   options.resume = true;
   options.provenance = provenance_of(request, hash);
   const Packing packing = start_packing(store, request);

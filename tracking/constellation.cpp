@@ -10,7 +10,7 @@
 #include "tracking/rotation.h"
 #include "tracking/surroundings.h"
 
-namespace pendular {
+namespace pendular::tracking {
 namespace {
 
 // Lengths in mean diameters.
@@ -76,7 +76,7 @@ std::optional<Constellations::Triangle> Constellations::triangle(const Surroundi
 }
 
 bool Constellations::alike(int before, int after) const {
-  return pendular::alike(before_[static_cast<std::size_t>(before)], after_[static_cast<std::size_t>(after)],
+  return tracking::alike(before_[static_cast<std::size_t>(before)], after_[static_cast<std::size_t>(after)],
                          diameter_);
 }
 
@@ -178,4 +178,4 @@ std::optional<Anchor> Constellations::find(int before) const {
   return best;
 }
 
-}  // namespace pendular
+}  // namespace pendular::tracking

@@ -6,7 +6,7 @@
 
 #include "packing/packing.h"
 
-namespace pendular {
+namespace pendular::tracking {
 
 /// Two beads, one of each scan, whose surroundings look alike in some orientation.
 struct Anchor {
@@ -59,4 +59,4 @@ class Constellations {
   std::vector<Surroundings> first_, second_;
 };
 
-}  // namespace pendular
+}  // namespace pendular::tracking

@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "packing/bridges.h"
 
-namespace pendular {
+namespace pendular::tracking {
 namespace {
 
 constexpr double kSurroundings = 1.5;  // gap within which neighbours say how a bead moves, mean diameters
@@ -99,4 +99,4 @@ void Following::drop_departures(Partners& partners, double reach) const {
   }
 }
 
-}  // namespace pendular
+}  // namespace pendular::tracking

@@ -5,7 +5,7 @@
 
 #include "tracking/surroundings.h"
 
-namespace pendular {
+namespace pendular::tracking {
 
 /// Which bead of the second scan each bead of the first is; −1: none known.
 using Partners = std::vector<int>;
@@ -39,4 +39,4 @@ class Following {
   std::vector<std::vector<int>> surroundings_;
 };
 
-}  // namespace pendular
+}  // namespace pendular::tracking

@@ -11,7 +11,7 @@
 #include "packing/neighbours.h"
 #include "tracking/rotation.h"
 
-namespace pendular {
+namespace pendular::tracking {
 namespace {
 
 constexpr double kSurroundings = 1.0;  // gap, mean diameters
@@ -328,4 +328,4 @@ Registration registration_of(const std::vector<Bead>& before, const std::vector<
   return registration;
 }
 
-}  // namespace pendular
+}  // namespace pendular::tracking

@@ -8,7 +8,7 @@
 #include "packing/packing.h"
 #include "tracking/match.h"
 
-namespace pendular {
+namespace pendular::tracking {
 
 /// after = scale · rotation · before + shift. Lengths in m.
 struct Similarity {
@@ -61,4 +61,4 @@ Registration registration_of(const std::vector<Bead>& before, const std::vector<
                              const std::vector<BeadMatch>& matches,
                              std::optional<double> strain = std::nullopt);
 
-}  // namespace pendular
+}  // namespace pendular::tracking

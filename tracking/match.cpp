@@ -6,7 +6,7 @@
 #include "base/parallel.h"
 #include "tracking/following.h"
 
-namespace pendular {
+namespace pendular::tracking {
 namespace {
 
 // Lengths in mean diameters.
@@ -112,4 +112,4 @@ std::vector<BeadMatch> match_beads(const std::vector<Bead>& before, const std::v
   return Matcher(before, after, even, options.reach).match();
 }
 
-}  // namespace pendular
+}  // namespace pendular::tracking

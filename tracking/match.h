@@ -5,7 +5,7 @@
 
 #include "packing/packing.h"
 
-namespace pendular {
+namespace pendular::tracking {
 
 /// A bead in two scans of one specimen, by its places in their tables.
 struct BeadMatch {
@@ -31,4 +31,4 @@ struct MatchOptions {
 std::vector<BeadMatch> match_beads(const std::vector<Bead>& before, const std::vector<Bead>& after,
                                    const Eigen::Affine3d& even, const MatchOptions& options = {});
 
-}  // namespace pendular
+}  // namespace pendular::tracking

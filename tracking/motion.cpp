@@ -11,7 +11,7 @@
 #include "packing/bridges.h"
 #include "tracking/following.h"
 
-namespace pendular {
+namespace pendular::tracking {
 namespace {
 
 constexpr double kLoose = 0.2;         // departure, mean diameters
@@ -88,9 +88,9 @@ void measure(Motion& motion, const std::vector<Bead>& before, const std::vector<
   }
   const double count = static_cast<double>(motion.matches.size());
   motion.still = std::sqrt(square / count) < (stated ? kStill * std::sqrt(variance / count) : kSame);
-  motion.local = local_strains(motion.start, now, radii);
+  motion.local = kinematics::local_strains(motion.start, now, radii);
   for (const auto& local : motion.local) shear.push_back(local.shear);
-  if (!motion.still) motion.band = find_shear_band(motion.start, shear, mean_diameter(before));
+  if (!motion.still) motion.band = kinematics::find_shear_band(motion.start, shear, mean_diameter(before));
 }
 
 }  // namespace
@@ -138,4 +138,4 @@ void write_motion(const fs::path& path, const std::vector<Bead>& before, const s
   write_text(path, text);
 }
 
-}  // namespace pendular
+}  // namespace pendular::tracking

@@ -9,7 +9,7 @@
 #include "tracking/match.h"
 #include "tracking/registration.h"
 
-namespace pendular {
+namespace pendular::tracking {
 
 /// How the beads of a specimen moved between two scans, in the frame of the first. Lengths in m.
 struct Motion {
@@ -20,11 +20,11 @@ struct Motion {
   std::vector<Vec3> start, displacement;
   std::vector<double> sigma;  ///< of a component of the displacement; 0: not stated
   std::vector<bool> loose;    ///< departs from its neighbours' motion
-  std::vector<LocalStrain> local;
-  std::vector<int> lost;   ///< beads of the first scan that were not found again
-  std::vector<int> fresh;  ///< beads of the second scan that none of the first is
-  bool still = false;      ///< displacements are no larger than their stated errors
-  ShearBand band;          ///< none where nothing moved
+  std::vector<kinematics::LocalStrain> local;
+  std::vector<int> lost;       ///< beads of the first scan that were not found again
+  std::vector<int> fresh;      ///< beads of the second scan that none of the first is
+  bool still = false;          ///< displacements are no larger than their stated errors
+  kinematics::ShearBand band;  ///< none where nothing moved
 };
 
 struct TrackOptions {
@@ -51,4 +51,4 @@ Motion follow_beads(const std::vector<Bead>& before, const std::vector<Bead>& af
 void write_motion(const fs::path& path, const std::vector<Bead>& before, const std::vector<Bead>& after,
                   const Motion& motion, const Provenance& provenance);
 
-}  // namespace pendular
+}  // namespace pendular::tracking

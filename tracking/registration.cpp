@@ -12,7 +12,7 @@
 #include "tracking/constellation.h"
 #include "tracking/following.h"
 
-namespace pendular {
+namespace pendular::tracking {
 namespace {
 
 constexpr std::size_t kStarts = 40;
@@ -95,4 +95,4 @@ Registration register_scans(const std::vector<Bead>& before, const std::vector<B
             std::min(kStarts, before.size()));
 }
 
-}  // namespace pendular
+}  // namespace pendular::tracking

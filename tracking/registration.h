@@ -5,7 +5,7 @@
 
 #include "tracking/frame.h"
 
-namespace pendular {
+namespace pendular::tracking {
 
 /// Finds the frame from the constellations alone: any rotation and shift, a scale within a few per cent of
 /// one, the specimen strained by some 10 % in between.
@@ -21,4 +21,4 @@ namespace pendular {
 Registration register_scans(const std::vector<Bead>& before, const std::vector<Bead>& after,
                             std::optional<double> strain = std::nullopt);
 
-}  // namespace pendular
+}  // namespace pendular::tracking

@@ -4,7 +4,7 @@
 
 #include "base/vec3.h"
 
-namespace pendular {
+namespace pendular::tracking {
 
 /// The proper rotation nearest to a matrix (Kabsch 1976, Acta Cryst. A32, 922; the case of a reflection as in
 /// Umeyama 1991, IEEE PAMI 13, 376). Of Σ b aᵀ over vectors a and b it is the rotation that brings all a onto
@@ -15,4 +15,4 @@ inline Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix) {
   return svd.matrixU() * Eigen::Vector3d(1.0, 1.0, handed).asDiagonal() * svd.matrixV().transpose();
 }
 
-}  // namespace pendular
+}  // namespace pendular::tracking

@@ -7,7 +7,7 @@
 #include "packing/bridges.h"
 #include "packing/neighbours.h"
 
-namespace pendular {
+namespace pendular::tracking {
 namespace {
 
 constexpr double kSigmas = 5.0, kOwnDiameter = 2e-3;
@@ -63,4 +63,4 @@ bool alike(const Bead& a, const Bead& b, double mean_diameter) {
   return sigma == 0.0 || std::fabs(a.diameter - b.diameter) < kSigmas * sigma + kOwnDiameter * mean_diameter;
 }
 
-}  // namespace pendular
+}  // namespace pendular::tracking

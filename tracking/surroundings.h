@@ -6,7 +6,7 @@
 
 #include "packing/packing.h"
 
-namespace pendular {
+namespace pendular::tracking {
 
 /// Beads by the cells of a grid: which of them lie near a place. Keeps no reference to the beads.
 class BeadGrid {
@@ -52,4 +52,4 @@ std::vector<std::vector<int>> neighbours_within(const std::vector<Bead>& beads, 
 /// `mean_diameter`, which a bead may differ by from scan to scan. Where no error is stated, always.
 bool alike(const Bead& a, const Bead& b, double mean_diameter);
 
-}  // namespace pendular
+}  // namespace pendular::tracking

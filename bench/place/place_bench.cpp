@@ -61,9 +61,9 @@ Sample sample_of(const std::string& path) {
 }
 
 std::vector<Vec3> displacements(const Packing& packing, const Sample& sample, const fs::path& scratch,
-                                const CompressOptions& options = {}) {
+                                const dem_core::CompressOptions& options = {}) {
   fs::remove_all(scratch);
-  compress(packing, sample, scratch, options);
+  dem_core::compress(packing, sample, scratch, options);
   std::vector<Vec3> u;
   for (const Vec3& v :
        vectors(read_polydata(scratch / "frames" / "frame_0000.vtp"), true, "displacement_um", scratch))
@@ -97,7 +97,8 @@ std::vector<Vec3> followed(const Packing& truth, const std::vector<Bead>& measur
 
 /// The beads whose bonds a mechanism changes; of an overhang, those within a diameter of where the platen is
 /// missing.
-std::vector<bool> beads_of_place(const Planted& planted, const Simulation& plain, const Simulation& changed) {
+std::vector<bool> beads_of_place(const Planted& planted, const dem_core::Simulation& plain,
+                                 const dem_core::Simulation& changed) {
   std::vector<bool> of_place(plain.beads.size(), false);
   std::map<std::pair<int, int>, double> kn;
   for (const auto& pair : plain.pairs)
@@ -159,20 +160,21 @@ void run(std::uint64_t seed, const Sample& sample, bool none_only, const fs::pat
     if (member == 1) believed = packing;
     scan.simulated.push_back(displacements(packing, sample, scratch / "run"));
   }
-  const Simulation specimen = build_simulation(believed, sample), plain = build_simulation(truth, sample);
+  const dem_core::Simulation specimen = dem_core::build_simulation(believed, sample),
+                             plain = dem_core::build_simulation(truth, sample);
   std::uint64_t number = seed + 1000;
   for (const auto& planted : kPlanted) {
     ++number;
     if (none_only && planted.mechanism != "none") continue;
     Packing packing = truth;
-    CompressOptions options;
+    dem_core::CompressOptions options;
     if (planted.mechanism != "none") {
       const auto& mechanism = blind::find_mechanism(planted.mechanism, "place_bench");
       if (mechanism.packing) mechanism.packing(packing, planted.theta);
       if (mechanism.simulation)
-        options.prepare = [&](Simulation& s) { mechanism.simulation(s, planted.theta); };
+        options.prepare = [&](dem_core::Simulation& s) { mechanism.simulation(s, planted.theta); };
     }
-    Simulation changed = build_simulation(packing, sample);
+    dem_core::Simulation changed = dem_core::build_simulation(packing, sample);
     if (options.prepare) options.prepare(changed);
     scan.measured =
         followed(truth, measured, displacements(packing, sample, scratch / "run", options), number);

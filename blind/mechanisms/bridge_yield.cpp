@@ -7,8 +7,8 @@ namespace {
 
 constexpr double kYieldStrain = 0.1;  // of a bridge
 
-std::function<void(const BondMoment&)> flow(double theta) {
-  return [theta](const BondMoment& bond) {
+std::function<void(const dem_core::BondMoment&)> flow(double theta) {
+  return [theta](const dem_core::BondMoment& bond) {
     double& flowed = bond.memory[0];
     const double stretch = bond.stretch + flowed;
     const double beyond = std::fabs(stretch) - kYieldStrain * bond.height;

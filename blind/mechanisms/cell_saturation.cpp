@@ -3,7 +3,7 @@
 namespace pendular::blind {
 namespace {
 
-void saturate(std::vector<CurveRow>& rows, const Simulation& simulation, double theta) {
+void saturate(std::vector<CurveRow>& rows, const dem_core::Simulation& simulation, double theta) {
   for (auto& row : rows) row.stress /= 1.0 + theta * row.stress * simulation.section;
 }
 

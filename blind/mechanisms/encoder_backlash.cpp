@@ -5,7 +5,7 @@
 namespace pendular::blind {
 namespace {
 
-void play(std::vector<CurveRow>& rows, const Simulation& simulation, double theta) {
+void play(std::vector<CurveRow>& rows, const dem_core::Simulation& simulation, double theta) {
   const double width = 1e-6 * theta / simulation.initial_height;
   double read = 0.0;
   for (auto& row : rows) row.strain = read = std::clamp(read, row.strain, row.strain + width);

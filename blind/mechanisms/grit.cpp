@@ -5,7 +5,7 @@
 namespace pendular::blind {
 namespace {
 
-void fill(Simulation& simulation, double theta) {
+void fill(dem_core::Simulation& simulation, double theta) {
   for (auto& pair : simulation.pairs)
     if (pair.bond >= 0)
       pair.properties.touch = std::max(pair.properties.touch, std::min(pair.properties.rest, 1e-6 * theta));

@@ -8,15 +8,15 @@ namespace {
 
 constexpr double kNoPlaten = 1.0;  // m: farther than any bead comes
 
-void shift(Simulation& simulation, double theta) {
+void shift(dem_core::Simulation& simulation, double theta) {
   const auto& at = simulation.beads.position;
   double left = std::numeric_limits<double>::infinity(), right = -left;
   for (const auto& p : at) left = std::min(left, p.x()), right = std::max(right, p.x());
   const double edge = right - theta * (right - left);
   for (std::size_t k = 0; k < at.size(); ++k)
     if (at[k].x() > edge) simulation.top.relief[k] += kNoPlaten;
-  place_platens(simulation, simulation.bottom.velocity);
-  list_pairs(simulation);
+  dem_core::place_platens(simulation, simulation.bottom.velocity);
+  dem_core::list_pairs(simulation);
 }
 
 }  // namespace

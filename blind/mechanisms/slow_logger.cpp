@@ -6,7 +6,7 @@
 namespace pendular::blind {
 namespace {
 
-void average(std::vector<CurveRow>& rows, const Simulation&, double theta) {
+void average(std::vector<CurveRow>& rows, const dem_core::Simulation&, double theta) {
   if (rows.size() < 2) return;
   const double step = std::fabs(rows[1].strain - rows[0].strain);  // rows are equal times
   const auto window = static_cast<std::size_t>(std::max(1.0, std::round(theta / step)));

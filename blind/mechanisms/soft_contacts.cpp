@@ -3,7 +3,7 @@
 namespace pendular::blind {
 namespace {
 
-void soften(Simulation& simulation, double theta) {
+void soften(dem_core::Simulation& simulation, double theta) {
   simulation.law.k_glass *= 1.0 - theta;
   simulation.law.kt_glass *= 1.0 - theta;
 }

@@ -5,7 +5,7 @@
 namespace pendular::blind {
 namespace {
 
-void tare(std::vector<CurveRow>& rows, const Simulation& simulation, double theta) {
+void tare(std::vector<CurveRow>& rows, const dem_core::Simulation& simulation, double theta) {
   const double preload = theta / simulation.section;
   const auto start =
       std::find_if(rows.begin(), rows.end(), [&](const CurveRow& row) { return row.stress > preload; });

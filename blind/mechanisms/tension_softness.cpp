@@ -3,8 +3,8 @@
 namespace pendular::blind {
 namespace {
 
-std::function<void(const BondMoment&)> soften(double theta) {
-  return [theta](const BondMoment& bond) {
+std::function<void(const dem_core::BondMoment&)> soften(double theta) {
+  return [theta](const dem_core::BondMoment& bond) {
     double& lost = bond.memory[0];
     const double now = bond.stretch > 0.0 ? theta : 0.0;
     bond.properties.kn *= (1.0 - now) / (1.0 - lost);

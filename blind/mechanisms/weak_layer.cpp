@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kHalfThickness = 1.5;  // bead diameters
 
-void soften(Simulation& simulation, double theta) {
+void soften(dem_core::Simulation& simulation, double theta) {
   const auto& at = simulation.beads.position;
   const double middle = 0.5 * (simulation.bottom.z + simulation.top.z);
   const double reach = kHalfThickness * simulation.beads.mean_diameter();

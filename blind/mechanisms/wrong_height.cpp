@@ -3,7 +3,7 @@
 namespace pendular::blind {
 namespace {
 
-void divide(std::vector<CurveRow>& rows, const Simulation&, double theta) {
+void divide(std::vector<CurveRow>& rows, const dem_core::Simulation&, double theta) {
   for (auto& row : rows) row.strain *= 1.0 - theta;
 }
 

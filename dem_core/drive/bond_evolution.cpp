@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 double energy(const Simulation& simulation, const Pair& pair) {
@@ -47,4 +47,4 @@ void change_all_bonds(Simulation& simulation, std::span<Pair* const> pairs, cons
   simulation.work.given += given;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

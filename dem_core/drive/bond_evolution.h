@@ -6,7 +6,7 @@
 
 #include "dem_core/simulation.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// A standing bond at a moment when it may change; SI.
 struct BondMoment {
@@ -37,4 +37,4 @@ void change_bond(Simulation& simulation, Pair& pair, const BondEvolution& evolut
 void change_all_bonds(Simulation& simulation, std::span<Pair* const> pairs, const BondEvolution& evolution,
                       double elapsed);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 double beads_near_bottom(const Simulation& simulation) {
@@ -83,4 +83,4 @@ double PlatenProgram::done(const Simulation& simulation, double stress) const {
   return asked_.max_stress ? std::max(strained, stress / *asked_.max_stress) : strained;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

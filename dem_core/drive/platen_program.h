@@ -4,7 +4,7 @@
 
 #include "dem_core/simulation.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// How far the moving platen is in its program.
 struct PlatenProgress {
@@ -49,4 +49,4 @@ class PlatenProgram {
   std::int64_t hold_steps_;  ///< length of a hold
 };
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

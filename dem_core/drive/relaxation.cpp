@@ -6,7 +6,7 @@
 #include "dem_core/observe/quasi_static.h"
 #include "dem_core/step/forces.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 constexpr int kTravelSteps = 40;    // long enough for the dashpots' forces to stay below the springs'
@@ -52,4 +52,4 @@ std::optional<Relaxed> come_to_rest(Simulation& simulation, Stepper& stepper, do
   return done;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -4,7 +4,7 @@
 
 #include "dem_core/step/stepper.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// One increment of a quasi-static test.
 struct Increment {
@@ -32,4 +32,4 @@ std::optional<Relaxed> come_to_rest(Simulation& simulation, Stepper& stepper, do
 std::optional<Relaxed> compress_and_relax(Simulation& simulation, Stepper& stepper,
                                           const Increment& increment);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

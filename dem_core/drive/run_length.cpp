@@ -6,7 +6,7 @@
 #include "dem_core/simulation.h"
 #include "micromechanics/stiffness.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 // As sample A takes, and specimens of 1,300 beads.
 constexpr double kStepsPerIncrement = 1000.0;
@@ -22,7 +22,8 @@ double expected_steps(const Sample& sample) {
   const double step = sample.contact.time_step_fraction * std::pow(std::max(0.5, 1.0 - 3.0 * spread), 1.5);
   const double bead_mass = sample.beads.density * M_PI / 6.0 * mean * mean * mean;
   const auto unit_time = [&] {
-    return std::sqrt(bead_mass / (sample.contact.stiffness_ratio * bond_stiffness(sample).normal));
+    return std::sqrt(bead_mass /
+                     (sample.contact.stiffness_ratio * micromechanics::bond_stiffness(sample).normal));
   };
   // The platen's way in one step; stiffness is only asked for where the sample states times or speeds in SI.
   const double way = asked.speed_si ? *asked.speed_si * step * unit_time() : asked.speed * mean * step;
@@ -34,4 +35,4 @@ double expected_steps(const Sample& sample) {
   return steps;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

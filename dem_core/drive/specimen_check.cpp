@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "packing/check.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 /// Height that the network around a bead spans.
@@ -65,4 +65,4 @@ void check_specimen(const Packing& packing, const Simulation& simulation, double
   check_joined(simulation, max_strain);
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

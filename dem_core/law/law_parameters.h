@@ -3,7 +3,7 @@
 // Plain structs of the law between two beads. Real is double, or as many numbers as a register holds
 // (Lanes in numbers-inl.h, which only dem_core's own sources include).
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// A vector in space.
 template <typename Real>
@@ -68,4 +68,4 @@ struct LawParts {
   bool one_spring, bond_friction_limit, bending;
 };
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -13,7 +13,7 @@
 #include "dem_core/law/numbers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pendular {
+namespace pendular::dem_core {
 namespace HWY_NAMESPACE {
 
 /// Glass part of the normal force: −k_glass (δn − touch) in overlap.
@@ -83,7 +83,7 @@ HWY_INLINE Real bending_energy(const Triple<Real>& turn, const Triple<Real>& n, 
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pendular
+}  // namespace pendular::dem_core
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -15,7 +15,7 @@
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pendular {
+namespace pendular::dem_core {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -159,7 +159,7 @@ HWY_INLINE Triple<Real> select(Mask which, const Triple<Real>& yes, const Triple
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pendular
+}  // namespace pendular::dem_core
 HWY_AFTER_NAMESPACE();
 
 #endif

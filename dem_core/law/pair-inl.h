@@ -10,7 +10,7 @@
 #include "dem_core/law/laws-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pendular {
+namespace pendular::dem_core {
 namespace HWY_NAMESPACE {
 
 /// Two beads as a pair sees them; SI.
@@ -121,7 +121,7 @@ HWY_INLINE PairAction<Real> advance_pair(const PairApproach<Real>& seen, const P
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pendular
+}  // namespace pendular::dem_core
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -2,7 +2,7 @@
 
 #include "dem_core/law/pair-inl.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 namespace law = HWY_NAMESPACE;
 
@@ -52,4 +52,4 @@ double break_bond(const Vec3& apart, double radii, const LawParameters& paramete
   return before - pair_energy(apart, radii, pair, history, parameters);
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

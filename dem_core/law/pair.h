@@ -5,7 +5,7 @@
 #include "base/vec3.h"
 #include "dem_core/law/law_parameters.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 inline Triple<double> triple(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
@@ -66,4 +66,4 @@ double pair_energy(const Vec3& apart, double radii, const PairProperties& pair, 
 double break_bond(const Vec3& apart, double radii, const LawParameters& law, PairProperties& pair,
                   PairHistory& history);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -2,7 +2,7 @@
 
 #include "dem_core/law/laws-inl.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 PlatenForce touch_platen(Platen& platen, std::size_t k, const BeadMotion& bead, const LawParameters& law,
                          double dt) {
@@ -29,4 +29,4 @@ PlatenForce touch_platen(Platen& platen, std::size_t k, const BeadMotion& bead, 
   return out;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -4,7 +4,7 @@
 
 #include "dem_core/law/pair.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// One platen: a rigid wall that only touches, horizontal but for its relief.
 struct Platen {
@@ -36,4 +36,4 @@ struct PlatenForce {
 PlatenForce touch_platen(Platen& platen, std::size_t k, const BeadMotion& bead, const LawParameters& law,
                          double dt);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

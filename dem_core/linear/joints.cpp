@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 Joint pair_joint(const Simulation& s, const Pair& pair) {
@@ -133,4 +133,4 @@ JointState state_at(const Joint& joint, const Closure& closure, const SpringNetw
   return state;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -5,7 +5,7 @@
 #include "dem_core/linear/spring_network.h"
 #include "dem_core/simulation.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// A pair, or a bead near a platen, as a linear problem sees it; at no displacement it is as in the
 /// simulation. Beads are the network's nodes by their index, the platens the two after them. SI.
@@ -48,4 +48,4 @@ struct JointState {
 JointState state_at(const Joint& joint, const Closure& closure, const SpringNetwork& nodes,
                     const LawParameters& law, const NodeVector& x);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

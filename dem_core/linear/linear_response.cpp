@@ -10,7 +10,7 @@
 #include "dem_core/linear/joints.h"
 #include "dem_core/observe/lateral_strain.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 // The answer is doubted beyond these (docs/linear_response.md).
@@ -217,4 +217,4 @@ LinearResponse linear_response(const Simulation& simulation, const LinearRespons
   return response;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -7,7 +7,7 @@
 #include "dem_core/linear/spring_network.h"
 #include "dem_core/simulation.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 struct LinearResponseOptions {
   /// Platen strain from first touch for which the closed contacts are found; nothing: the contacts are those
@@ -62,4 +62,4 @@ LinearResponse linear_response(const Simulation& simulation, const LinearRespons
 /// The springs of a simulation's bonds and contacts as they are now.
 SpringNetwork spring_network(const Simulation& simulation);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

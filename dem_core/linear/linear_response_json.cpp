@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 nlohmann::ordered_json to_json(const ContactCount& count) {
@@ -33,4 +33,4 @@ nlohmann::ordered_json to_json(const LinearResponse& response, const Simulation&
        {{"height_um", 1e6 * simulation.initial_height}, {"section_mm2", 1e6 * simulation.section}}}};
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -4,9 +4,9 @@
 
 #include "dem_core/linear/linear_response.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// What modulus.json holds, but for its provenance; `strain` is what the contacts were found for.
 nlohmann::ordered_json to_json(const LinearResponse& response, const Simulation& simulation, double strain);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 using Block = Eigen::Matrix<double, 6, 6>;
@@ -184,4 +184,4 @@ Solution solve(const SpringNetwork& network, const NodeVector& load, double tole
   }
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

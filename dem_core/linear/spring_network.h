@@ -5,7 +5,7 @@
 
 #include "base/vec3.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// One value per unknown: six per node, its displacement u and its rotation times its radius R θ, both in m.
 using NodeVector = Eigen::VectorXd;
@@ -77,4 +77,4 @@ struct Solution {
 /// ComputationFailed where the residual does not fall to `tolerance`.
 Solution solve(const SpringNetwork& network, const NodeVector& load, double tolerance, NodeVector& x);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

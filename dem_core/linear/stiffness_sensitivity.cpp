@@ -1,6 +1,6 @@
 #include "dem_core/linear/stiffness_sensitivity.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 /// Calls use(node, force, moment over the radius) with the part of one spring in K x − pushes, for both its
@@ -51,4 +51,4 @@ std::vector<double> stiffness_gradient(const SpringNetwork& network, const NodeV
   return derivative;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -4,7 +4,7 @@
 
 #include "dem_core/linear/spring_network.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// How a network between held platens moves where its springs become stiffer. x solves K x = pushes; a spring
 /// whose stiffness changes by the factor exp θ has its force, push included, changed by the same factor.
@@ -19,4 +19,4 @@ NodeVector stiffness_sensitivity(const SpringNetwork& network, const NodeVector&
 std::vector<double> stiffness_gradient(const SpringNetwork& network, const NodeVector& x,
                                        const NodeVector& gradient, double tolerance);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

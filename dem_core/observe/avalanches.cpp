@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 constexpr double kReach = 3.0;  // mean diameters
@@ -62,4 +62,4 @@ std::vector<Avalanche> avalanches(const std::vector<BreakEvent>& events, const A
   return found;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -5,7 +5,7 @@
 #include "dem_core/simulation.h"
 #include "run_folder/events.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// Two breaks belong together where they are no farther apart than both.
 struct AvalancheWindow {
@@ -22,4 +22,4 @@ AvalancheWindow avalanche_window(const Simulation& simulation, double kn, double
 /// other events. A break alone is an avalanche of one. In order of their first break.
 std::vector<Avalanche> avalanches(const std::vector<BreakEvent>& events, const AvalancheWindow& window);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

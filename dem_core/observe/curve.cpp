@@ -6,7 +6,7 @@
 
 #include "base/line_fit.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 struct Points {
@@ -115,4 +115,4 @@ std::optional<CurveFeatures> curve_features(const std::vector<CurveRow>& rows) {
   return features;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

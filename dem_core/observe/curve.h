@@ -5,7 +5,7 @@
 
 #include "run_folder/curve.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// What is read off a curve, as the paper does it.
 struct CurveFeatures {
@@ -24,4 +24,4 @@ struct CurveFeatures {
 /// and reloading are left out. Nothing where the curve has fewer than eight loading rows or never rises.
 std::optional<CurveFeatures> curve_features(const std::vector<CurveRow>& rows);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

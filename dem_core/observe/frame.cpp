@@ -5,7 +5,7 @@
 #include "dem_core/observe/frame_observers.h"
 #include "run_folder/frame.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 void write_frame(const fs::path& path, const Simulation& simulation,
                  const std::vector<std::int64_t>& bead_ids, double stress, const Sample::Observe& observe) {
   const auto& beads = simulation.beads;
@@ -30,4 +30,4 @@ void write_frame(const fs::path& path, const Simulation& simulation,
   write_polydata(path, table);
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

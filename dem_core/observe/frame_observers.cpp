@@ -4,13 +4,13 @@
 #include "dem_core/step/forces.h"
 #include "kinematics/local_strain.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 void add_local_strain(const Simulation& simulation, const std::vector<Link>&, PolyTable& frame) {
   const auto& beads = simulation.beads;
   std::vector<double> shear, volumetric;
-  for (const auto& strain : local_strains(beads.start, beads.position, beads.radius)) {
+  for (const auto& strain : kinematics::local_strains(beads.start, beads.position, beads.radius)) {
     shear.push_back(strain.shear);
     volumetric.push_back(strain.volumetric);
   }
@@ -89,4 +89,4 @@ const std::vector<FrameObserver>& frame_observers() {
   return all;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -6,7 +6,7 @@
 #include "dem_core/simulation.h"
 #include "packing/polydata.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// A standing bond, a broken bond, or a touching pair without a bond: a line of a frame.
 struct Link {
@@ -25,4 +25,4 @@ struct FrameObserver {
 /// All of them, in the order of a frame's arrays: a new one is a function and its line here.
 const std::vector<FrameObserver>& frame_observers();
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 using Lateral = Eigen::Vector2d;
@@ -60,4 +60,4 @@ double lateral_strain(const Simulation& simulation) {
   return square > 0.0 ? expansion / square : 0.0;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -2,7 +2,7 @@
 
 #include "dem_core/simulation.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// Lateral strain at mid-height, expansion positive: what a pair of callipers around the specimen's middle
 /// would read. Over the outer beads of the middle third of the height that still have a bond, with lateral
@@ -12,4 +12,4 @@ namespace pendular {
 /// than three such beads are left.
 double lateral_strain(const Simulation& simulation);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

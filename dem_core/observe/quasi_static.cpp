@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pendular {
+namespace pendular::dem_core {
 
 double inertial_number(double rate, double diameter, double density, double stress) {
   if (!(stress > 0.0)) return std::numeric_limits<double>::infinity();
@@ -43,4 +43,4 @@ std::optional<QuasiStatic> quasi_static(const std::vector<CurveRow>& rows) {
   return worst;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

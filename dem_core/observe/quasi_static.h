@@ -6,7 +6,7 @@
 #include "dem_core/observe/curve.h"
 #include "dem_core/step/forces.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// Above these a run counts as dynamic: its stress holds inertia, not only what the specimen resists.
 constexpr double kQuasiStaticInertialNumber = 1e-3;  // GDR MiDi 2004, Eur. Phys. J. E 14, 341
@@ -32,4 +32,4 @@ struct QuasiStatic {
 /// Nothing where the curve has no linear part.
 std::optional<QuasiStatic> quasi_static(const std::vector<CurveRow>& rows);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

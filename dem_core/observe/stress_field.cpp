@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 /// A share of a pair's f ⊗ b, at one place.
@@ -145,4 +145,4 @@ double deviatoric_stress(const Stress& stress) {
   return std::sqrt(1.5) * (stress - pressure(stress) * Stress::Identity()).norm();
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

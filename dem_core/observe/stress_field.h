@@ -5,7 +5,7 @@
 
 #include "dem_core/step/forces.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// Stress, Pa; compression positive.
 using Stress = Eigen::Matrix3d;
@@ -28,4 +28,4 @@ double pressure(const Stress& stress);
 /// √(3/2 s:s) of the deviator s (von Mises).
 double deviatoric_stress(const Stress& stress);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -7,7 +7,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 constexpr std::size_t kCacheLine = 64, kLargePage = std::size_t{1} << 21;
@@ -33,4 +33,4 @@ void free_aligned(void* memory) {
   std::free(memory);
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// Memory that begins on a cache line. Large pieces begin on a large page and ask for large pages where the
 /// system has them: the tables of a step span more small pages than a core keeps addresses of.
@@ -24,4 +24,4 @@ struct AlignedAllocator {
 template <typename T>
 using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

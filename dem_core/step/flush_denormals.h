@@ -4,7 +4,7 @@
 #include <immintrin.h>
 #endif
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// While it lives, this thread takes denormal numbers for zero. Ahead of an elastic wave the motion is
 /// denormal numbers, a hundred times slower to add.
@@ -25,4 +25,4 @@ class FlushDenormals {
 #endif
 };
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

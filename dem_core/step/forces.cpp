@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 /// On a copy of what the platen remembers of each bead.
@@ -47,4 +47,4 @@ Forces forces(const Simulation& simulation) {
   return out;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

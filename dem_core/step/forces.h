@@ -4,7 +4,7 @@
 
 #include "dem_core/simulation.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// A platen on one bead it acts on.
 struct PlatenContact {
@@ -22,4 +22,4 @@ struct Forces {
 /// Reads the simulation and leaves it as it is.
 Forces forces(const Simulation& simulation);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

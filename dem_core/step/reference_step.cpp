@@ -1,6 +1,6 @@
 #include "dem_core/step/reference_step.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 void reference_step(Simulation& simulation) {
   auto& beads = simulation.beads;
@@ -38,4 +38,4 @@ void reference_step(Simulation& simulation) {
   advance_platens(simulation);
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -15,7 +15,7 @@
 #include "dem_core/law/numbers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pendular {
+namespace pendular::dem_core {
 namespace HWY_NAMESPACE {
 
 /// Pairs that a register holds.
@@ -153,7 +153,7 @@ HWY_INLINE void to_rows(const Triple<Lanes>& t, LanesOf (&rows)[kLanes][kParts])
 #endif
 
 }  // namespace HWY_NAMESPACE
-}  // namespace pendular
+}  // namespace pendular::dem_core
 HWY_AFTER_NAMESPACE();
 
 #endif

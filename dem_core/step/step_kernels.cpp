@@ -17,7 +17,7 @@
 #include "dem_core/step/rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace pendular {
+namespace pendular::dem_core {
 namespace HWY_NAMESPACE {
 namespace {
 
@@ -301,11 +301,11 @@ void MoveBeads(BeadTable& beads, Chunk& chunk, double dt) {
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
-}  // namespace pendular
+}  // namespace pendular::dem_core
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 HWY_EXPORT(AdvancePairs);
 HWY_EXPORT(MoveBeads);
@@ -339,5 +339,5 @@ void use_instruction_set(const std::string& name) {
   bad_input("instruction set \"{}\": expected one of {}", name, fmt::join(names, ", "));
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core
 #endif

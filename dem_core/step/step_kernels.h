@@ -6,7 +6,7 @@
 #include "dem_core/law/law_parameters.h"
 #include "dem_core/step/step_tables.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// The two inner loops of a time step, compiled for several instruction sets; the best that the machine has
 /// is chosen when the program runs.
@@ -24,4 +24,4 @@ std::vector<std::string> instruction_sets();
 /// Uses the named one from now on. BadInput where this machine or program lacks it.
 void use_instruction_set(const std::string& name);
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -6,7 +6,7 @@
 
 #include "dem_core/step/aligned_vector.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// Pairs of one block: no register holds more.
 constexpr std::size_t kBlock = 8;
@@ -81,4 +81,4 @@ struct Chunk {
   std::vector<std::uint32_t> breaking;  ///< pairs whose bond breaks: block × kBlock + place in it
 };
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

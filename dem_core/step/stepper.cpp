@@ -10,7 +10,7 @@
 #include "dem_core/step/flush_denormals.h"
 #include "dem_core/step/step_kernels.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 constexpr std::size_t kBeadsPerChunk = 256;
@@ -416,4 +416,4 @@ bool Stepper::listing_due() const {
                   std::fabs(simulation_.top.z - listing.top_at)) > listing.platen_margin;
 }
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -9,7 +9,7 @@
 #include "dem_core/simulation.h"
 #include "dem_core/step/step_tables.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 
 /// Advances a simulation step by step, fast: vector kernels over tables of pairs and beads, which are kept in
 /// the order of their place in space. Chunks of neighbouring beads and their pairs are what threads share. A
@@ -79,4 +79,4 @@ class Stepper {
   SameThreads same_threads_;
 };
 
-}  // namespace pendular
+}  // namespace pendular::dem_core

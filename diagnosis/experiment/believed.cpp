@@ -5,10 +5,10 @@
 namespace pendular::diagnosis {
 namespace {
 
-BondStiffness by_finite_elements(Sample sample) {
+micromechanics::BondStiffness by_finite_elements(Sample sample) {
   sample.bridges.normal_stiffness = sample.bridges.tangential_stiffness = std::nullopt;
   sample.bridges.stiffness = StiffnessOf::one;
-  return bond_stiffness(sample);
+  return micromechanics::bond_stiffness(sample);
 }
 
 bool same_bridge(const Sample& a, const Sample& b) {
@@ -26,7 +26,8 @@ Sample changed_sample(const Sample& sample, const std::function<void(Sample&)>& 
   const bool stated_alike =
       kn && kn == sample.bridges.normal_stiffness && kt == sample.bridges.tangential_stiffness;
   if (!stated_alike || same_bridge(sample, changed)) return changed;
-  const BondStiffness before = by_finite_elements(sample), after = by_finite_elements(changed);
+  const micromechanics::BondStiffness before = by_finite_elements(sample),
+                                      after = by_finite_elements(changed);
   *kn *= after.normal / before.normal;
   *kt *= after.tangential / before.tangential;
   return changed;

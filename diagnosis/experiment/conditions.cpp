@@ -69,15 +69,15 @@ bool states_rates(const Experiment& experiment) {
 /// A platen slower than quasi-static is simulated at that speed. The polymer's time, the same for all tests,
 /// shortens with it.
 void set_speed(Sample& sample, const Experiment& experiment) {
-  const double stated = platen_speed(sample);
+  const double stated = dem_core::platen_speed(sample);
   Sample slow = sample;
   slow.compression.speed = kQuasiStatic;
   slow.compression.speed_si = std::nullopt;
-  const double simulated = std::max(stated, platen_speed(slow));
+  const double simulated = std::max(stated, dem_core::platen_speed(slow));
   if (states_rates(experiment)) {
     const Sample& base = experiment.sample;
-    const double time =
-        base.bridges.relaxation_time.value_or(kRelaxationStrain * base.specimen.height / platen_speed(base));
+    const double time = base.bridges.relaxation_time.value_or(kRelaxationStrain * base.specimen.height /
+                                                              dem_core::platen_speed(base));
     sample.bridges.relaxation_time = time * stated / simulated;
   }
   if (simulated > stated) sample.compression = slow.compression;

@@ -27,16 +27,17 @@ constexpr double kLongest = 0.2;         // gap over bead diameter, as effects/b
 
 /// Stiffness of bridges of a polymer of one pascal. Kept, because the runs of a diagnosis differ in E_p at
 /// most, and all ask for the same bridges.
-std::vector<BondStiffness> stiffness_per_pascal(const std::vector<BridgeBody>& bodies, double poisson_ratio) {
+std::vector<micromechanics::BondStiffness> stiffness_per_pascal(
+    const std::vector<micromechanics::BridgeBody>& bodies, double poisson_ratio) {
   static std::mutex guard;
-  static std::map<std::vector<double>, std::vector<BondStiffness>> kept;
+  static std::map<std::vector<double>, std::vector<micromechanics::BondStiffness>> kept;
   std::vector<double> key = {poisson_ratio};
   for (const auto& body : bodies)
     key.insert(key.end(), {body.neck_diameter, body.gap, body.diameter_i, body.diameter_j});
   const std::lock_guard lock(guard);
   if (kept.size() == kMostKept && !kept.contains(key)) kept.clear();
   auto& found = kept[key];
-  if (found.empty()) found = bridge_stiffnesses(bodies, {1.0, poisson_ratio}).bonds;
+  if (found.empty()) found = micromechanics::bridge_stiffnesses(bodies, {1.0, poisson_ratio}).bonds;
   return found;
 }
 
@@ -44,7 +45,8 @@ std::vector<BondStiffness> stiffness_per_pascal(const std::vector<BridgeBody>& b
 std::pair<double, double> stated_over_finite_elements(const Sample& sample) {
   const auto& bridges = sample.bridges;
   if (!bridges.normal_stiffness) return {1.0, 1.0};
-  const BondStiffness mean = stiffness_per_pascal({mean_bridge(sample)}, bridges.poisson_ratio).front();
+  const micromechanics::BondStiffness mean =
+      stiffness_per_pascal({micromechanics::mean_bridge(sample)}, bridges.poisson_ratio).front();
   return {*bridges.normal_stiffness / (bridges.youngs_modulus * mean.normal),
           *bridges.tangential_stiffness / (bridges.youngs_modulus * mean.tangential)};
 }
@@ -52,7 +54,7 @@ std::pair<double, double> stated_over_finite_elements(const Sample& sample) {
 /// The stiffness of the tested bridges at one gap, m.
 Columns at_gap(const Observation& observation, const Sample& sample, double gap) {
   const auto &d = observation.column("d_um"), &diameter = observation.column("D_um");
-  std::vector<BridgeBody> bodies;
+  std::vector<micromechanics::BridgeBody> bodies;
   for (std::size_t k = 0; k < d.size(); ++k)
     bodies.push_back({d[k] / kUm, gap, diameter[k] / kUm, diameter[k] / kUm});
   const auto [normal, tangential] = stated_over_finite_elements(sample);

@@ -75,14 +75,14 @@ double strain_at(const Curve& curve, double stress) {
   return curve.strain.front();
 }
 
-std::optional<pendular::CurveFeatures> landmarks(const Curve& smooth) {
+std::optional<dem_core::CurveFeatures> landmarks(const Curve& smooth) {
   std::vector<CurveRow> rows;
   for (std::size_t k = 0; k < smooth.strain.size(); ++k) {
     CurveRow row;
     row.strain = smooth.strain[k], row.stress = smooth.stress[k];
     rows.push_back(row);
   }
-  return pendular::curve_features(rows);
+  return dem_core::curve_features(rows);
 }
 
 class Features {
@@ -99,7 +99,7 @@ class Features {
   std::vector<CurveFeature> all_;
 };
 
-void add_loading(Features& features, const Curve& smooth, const pendular::CurveFeatures& at) {
+void add_loading(Features& features, const Curve& smooth, const dem_core::CurveFeatures& at) {
   const double toe = at.toe_strain, end = at.fit_to, last = smooth.strain.back();
   features.difference("toe_strain", toe, smooth.strain.front(), at.fit_from);
   features.logarithm("toe_roundness", stress_at(smooth, toe) / (0.01 * at.modulus), smooth.strain.front(),

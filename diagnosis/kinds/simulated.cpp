@@ -82,7 +82,7 @@ Columns columns_of_rows(const SimulatedTest& test, const std::string& name, doub
 }
 
 double simulated_modulus(const SimulatedTest& test) {
-  const auto found = pendular::curve_features(test.rows);
+  const auto found = dem_core::curve_features(test.rows);
   return found ? found->modulus : std::nan("");
 }
 

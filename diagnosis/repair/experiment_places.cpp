@@ -59,7 +59,7 @@ ScannedMotion scan_of(const Observation& observation, const Overlay& overlay) {
 Place place_in(const Experiment& experiment, const Condition& condition, std::size_t index,
                const fs::path& beads_folder, const Overlay& overlay) {
   const Packing packing = read_packing(beads_of_member(condition, 1, condition.sample, beads_folder).file);
-  const Simulation specimen =
+  const dem_core::Simulation specimen =
       effects::actual_simulation(effects::actual_specimen(packing, condition.sample, 1));
   std::vector<std::int64_t> ids;
   for (const auto& bead : packing.beads) ids.push_back(bead.id);

@@ -62,7 +62,7 @@ std::size_t Place::count() const {
       std::count_if(misfit.value.begin(), misfit.value.end(), [&](double value) { return value > cut; }));
 }
 
-Place place_of(const ScannedMotion& scan, const Simulation& specimen,
+Place place_of(const ScannedMotion& scan, const dem_core::Simulation& specimen,
                const std::vector<std::int64_t>& ids_of_specimen) {
   std::map<std::int64_t, int> index;
   for (std::size_t k = 0; k < ids_of_specimen.size(); ++k) index[ids_of_specimen[k]] = static_cast<int>(k);

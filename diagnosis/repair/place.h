@@ -38,7 +38,7 @@ struct Place {
 
 /// `specimen`: as measured and believed, before its test; its beads are those of `ids_of_specimen`. At least
 /// three members.
-Place place_of(const ScannedMotion& scan, const Simulation& specimen,
+Place place_of(const ScannedMotion& scan, const dem_core::Simulation& specimen,
                const std::vector<std::int64_t>& ids_of_specimen);
 
 }  // namespace pendular::diagnosis

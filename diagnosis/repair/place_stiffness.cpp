@@ -92,9 +92,11 @@ double weight_of_scans(const MovedBeads& beads, const std::vector<Vec3>& differe
 
 /// Displacements of all nodes in the frame of the simulation, for closures. Beads that were not followed move
 /// as the nearest one does.
-NodeVector seen_motion(const Simulation& specimen, double travel, const std::vector<int>& bead,
-                       const std::vector<Vec3>& moved, const MovedBeads& beads) {
-  NodeVector x = NodeVector::Zero(6 * static_cast<Eigen::Index>(specimen.beads.size() + 2));
+dem_core::NodeVector seen_motion(const dem_core::Simulation& specimen, double travel,
+                                 const std::vector<int>& bead, const std::vector<Vec3>& moved,
+                                 const MovedBeads& beads) {
+  dem_core::NodeVector x =
+      dem_core::NodeVector::Zero(6 * static_cast<Eigen::Index>(specimen.beads.size() + 2));
   std::vector<int> source(specimen.beads.size(), -1);
   for (std::size_t k = 0; k < bead.size(); ++k)
     source[static_cast<std::size_t>(bead[k])] = static_cast<int>(k);
@@ -183,19 +185,21 @@ RegionFit fit_regions(const Eigen::MatrixXd& sensitivity, const Eigen::MatrixXd&
   return best;
 }
 
-PlaceStiffness place_stiffness(const Simulation& specimen, double strain, const std::vector<int>& bead,
-                               const std::vector<Vec3>& simulated, const MovedBeads& beads) {
+PlaceStiffness place_stiffness(const dem_core::Simulation& specimen, double strain,
+                               const std::vector<int>& bead, const std::vector<Vec3>& simulated,
+                               const MovedBeads& beads) {
   const auto mean = mean_member(beads);
   std::vector<Vec3> difference, moved;
   for (std::size_t k = 0; k < mean.size(); ++k) difference.push_back(beads.measured[k] - mean[k]);
   const double weight = weight_of_scans(beads, difference), travel = strain * specimen.initial_height;
   for (std::size_t k = 0; k < mean.size(); ++k) moved.push_back(simulated[k] + weight * difference[k]);
 
-  Simulation listed = specimen;
-  list_pairs(listed, (0.025 + 0.5 * strain) * listed.beads.mean_diameter());
-  const auto joints = joints_of(listed, travel);
-  NodeVector x = seen_motion(listed, travel, bead, moved, beads);
-  const SpringNetwork network = network_of(listed, joints, closures_at(nodes_of(listed), joints, x), true);
+  dem_core::Simulation listed = specimen;
+  dem_core::list_pairs(listed, (0.025 + 0.5 * strain) * listed.beads.mean_diameter());
+  const auto joints = dem_core::joints_of(listed, travel);
+  dem_core::NodeVector x = seen_motion(listed, travel, bead, moved, beads);
+  const dem_core::SpringNetwork network = dem_core::network_of(
+      listed, joints, dem_core::closures_at(dem_core::nodes_of(listed), joints, x), true);
   solve(network, network.pushes(), kTolerance, x);
 
   const auto centres = centres_of_regions(beads);
@@ -207,7 +211,7 @@ PlaceStiffness place_stiffness(const Simulation& specimen, double strain, const 
       of_spring.push_back(spring.j < network.free_nodes()
                               ? 0.5 * (at_nodes(spring.i, r) + at_nodes(spring.j, r))
                               : at_nodes(spring.i, r));
-    const NodeVector change = stiffness_sensitivity(network, x, of_spring, kTolerance);
+    const dem_core::NodeVector change = dem_core::stiffness_sensitivity(network, x, of_spring, kTolerance);
     for (std::size_t k = 0; k < bead.size(); ++k)
       sensitivity.block<3, 1>(static_cast<Eigen::Index>(3 * k), r) = change.segment<3>(6 * bead[k]);
   }

@@ -27,8 +27,9 @@ struct PlaceStiffness {
 /// probable under a normal prior (correlated over 1.5 diameters, its size by the largest evidence) and noise
 /// with a multivariate t a bead (four degrees of freedom), scaled up to what is left. `bead`: of each
 /// followed bead in the simulation. ComputationFailed where the platens are not joined.
-PlaceStiffness place_stiffness(const Simulation& specimen, double strain, const std::vector<int>& bead,
-                               const std::vector<Vec3>& simulated, const MovedBeads& beads);
+PlaceStiffness place_stiffness(const dem_core::Simulation& specimen, double strain,
+                               const std::vector<int>& bead, const std::vector<Vec3>& simulated,
+                               const MovedBeads& beads);
 
 /// Changes of stiffness in regions from a difference of fields (three rows a bead) and its variance by noise;
 /// `sensitivity`: of the difference to each change. `prior`: covariance of the changes but for its size.

@@ -32,12 +32,13 @@ py::dtype row_fields() {
   return {names, formats, offsets, static_cast<py::ssize_t>(sizeof(Row))};
 }
 
-BridgeBody body_of(const Row& row) {
+micromechanics::BridgeBody body_of(const Row& row) {
   return {1e-6 * row.d_um, 1e-6 * row.gap_um, 1e-6 * row.D_um, 1e-6 * row.D2_um};
 }
 
 void solve(Row& row) {
-  const BridgeStiffness k = bridge_stiffness(body_of(row), {row.E_pa, row.nu});
+  const micromechanics::BridgeStiffness k =
+      micromechanics::bridge_stiffness(body_of(row), {row.E_pa, row.nu});
   row.kn = k.normal, row.kt = k.tangential, row.bend = k.bending, row.twist = k.twisting;
   row.coupling = k.coupling, row.error = k.error_estimate;
   row.mean_average = k.stress.mean_average, row.axial_average = k.stress.axial_average;
@@ -48,8 +49,8 @@ void solve(Row& row) {
 void check(const std::vector<Row>& rows) {
   std::size_t outside = 0;
   for (const Row& row : rows) {
-    check_bridge(body_of(row), {row.E_pa, row.nu});
-    outside += !within_verified_range(body_of(row), {row.E_pa, row.nu});
+    micromechanics::check_bridge(body_of(row), {row.E_pa, row.nu});
+    outside += !micromechanics::within_verified_range(body_of(row), {row.E_pa, row.nu});
   }
   if (outside > 0)
     warn(fmt::format(

@@ -81,9 +81,9 @@ void in_python(const Hooks& hooks, const char* hook, const Call& call) {
   }
 }
 
-double PairProperties::*const kStiffness[] = {&PairProperties::kn, &PairProperties::kt,
-                                              &PairProperties::k_bend, &PairProperties::k_twist,
-                                              &PairProperties::break_limit};
+double dem_core::PairProperties::*const kStiffness[] = {
+    &dem_core::PairProperties::kn, &dem_core::PairProperties::kt, &dem_core::PairProperties::k_bend,
+    &dem_core::PairProperties::k_twist, &dem_core::PairProperties::break_limit};
 constexpr const char* kStiffnessNames[] = {"kn_n_per_m", "kt_n_per_m", "k_bend_n_m_per_rad",
                                            "k_twist_n_m_per_rad", "break_limit_m2"};
 
@@ -106,19 +106,20 @@ void take_stiffness(const Bonds& bonds, std::size_t rows, const Properties& of) 
 }
 
 /// The bonded pairs, in the order of the bonds.
-std::vector<Pair*> bonded(Simulation& simulation) {
-  std::vector<Pair*> pairs(simulation.bonds.size(), nullptr);
+std::vector<dem_core::Pair*> bonded(dem_core::Simulation& simulation) {
+  std::vector<dem_core::Pair*> pairs(simulation.bonds.size(), nullptr);
   for (auto& pair : simulation.pairs)
     if (pair.bond >= 0) pairs[static_cast<std::size_t>(pair.bond)] = &pair;
   std::erase(pairs, nullptr);
   return pairs;
 }
 
-void give_places(Bonds& bonds, const Simulation& simulation, const std::vector<Pair*>& pairs) {
+void give_places(Bonds& bonds, const dem_core::Simulation& simulation,
+                 const std::vector<dem_core::Pair*>& pairs) {
   std::vector<int> i, j;
   Column gaps, heights;
   std::map<std::string, Column> places;
-  for (const Pair* pair : pairs) {
+  for (const dem_core::Pair* pair : pairs) {
     i.push_back(pair->i), j.push_back(pair->j);
     gaps.push_back(gap(simulation, *pair));
     heights.push_back(simulation.bonds[static_cast<std::size_t>(pair->bond)].height);
@@ -131,9 +132,9 @@ void give_places(Bonds& bonds, const Simulation& simulation, const std::vector<P
   for (const char* name : {"x_m", "y_m", "z_m"}) bonds.give(name, places[name]);
 }
 
-void give_draws(Bonds& bonds, const std::vector<Pair*>& pairs, const Draws& draws) {
+void give_draws(Bonds& bonds, const std::vector<dem_core::Pair*>& pairs, const Draws& draws) {
   Column uniform, normal;
-  for (const Pair* pair : pairs) {
+  for (const dem_core::Pair* pair : pairs) {
     uniform.push_back(draws.uniform(effects::of_pair(pair->i, pair->j)));
     normal.push_back(draws.normal(effects::of_pair(pair->i, pair->j)));
   }
@@ -141,26 +142,29 @@ void give_draws(Bonds& bonds, const std::vector<Pair*>& pairs, const Draws& draw
 }
 
 auto before_test(const Hooks& hooks) {
-  return [hooks](Simulation& simulation, const ActualSpecimen& specimen, double theta, const Draws& draws) {
+  return [hooks](dem_core::Simulation& simulation, const ActualSpecimen& specimen, double theta,
+                 const Draws& draws) {
     const auto pairs = bonded(simulation);
     in_python(hooks, "before", [&] {
       Bonds bonds(hooks, "before", pairs.size());
       give_places(bonds, simulation, pairs);
       give_draws(bonds, pairs, draws);
-      const auto properties = [&](std::size_t k) -> PairProperties& { return pairs[k]->properties; };
+      const auto properties = [&](std::size_t k) -> dem_core::PairProperties& {
+        return pairs[k]->properties;
+      };
       give_stiffness(bonds, pairs.size(), properties);
       bonds.call(*hooks.before, theta);
       take_stiffness(bonds, pairs.size(), properties);
     });
-    for (const Pair* pair : pairs)
+    for (const dem_core::Pair* pair : pairs)
       simulation.law.bending |= pair->properties.k_bend > 0.0 || pair->properties.k_twist > 0.0;
-    simulation.dt = time_step(simulation, specimen.sample.contact.time_step_fraction);
+    simulation.dt = dem_core::time_step(simulation, specimen.sample.contact.time_step_fraction);
   };
 }
 
-void give_moments(Bonds& bonds, std::span<const BondMoment> moments, std::size_t memory) {
+void give_moments(Bonds& bonds, std::span<const dem_core::BondMoment> moments, std::size_t memory) {
   Column stretch, shear, height, remembered;
-  for (const BondMoment& moment : moments) {
+  for (const dem_core::BondMoment& moment : moments) {
     stretch.push_back(moment.stretch), shear.push_back(moment.shear), height.push_back(moment.height);
     remembered.insert(remembered.end(), moment.memory, moment.memory + memory);
   }
@@ -171,10 +175,12 @@ void give_moments(Bonds& bonds, std::span<const BondMoment> moments, std::size_t
 
 auto as_it_goes_on(const Hooks& hooks, std::size_t memory) {
   return [hooks, memory](const ActualSpecimen&, double theta) {
-    return [hooks, memory, theta](std::span<const BondMoment> moments) {
+    return [hooks, memory, theta](std::span<const dem_core::BondMoment> moments) {
       in_python(hooks, "step", [&] {
         Bonds bonds(hooks, "step", moments.size());
-        const auto properties = [&](std::size_t k) -> PairProperties& { return moments[k].properties; };
+        const auto properties = [&](std::size_t k) -> dem_core::PairProperties& {
+          return moments[k].properties;
+        };
         give_moments(bonds, moments, memory);
         give_stiffness(bonds, moments.size(), properties);
         bonds.call(*hooks.step, theta);

@@ -21,7 +21,7 @@ py::tuple compress(const Packing& packing, const NamedSample& sample, const fs::
     protect_inputs_of(origin);
     effects::check_effects(sample.sample, sample.name);
     warn_of_open_contacts(packing.beads, sample.sample);
-    CompressOptions options;
+    dem_core::CompressOptions options;
     options.resume = resume;
     options.checkpoint_every = checkpoint_every;
     options.provenance = provenance_of(origin);
@@ -36,8 +36,8 @@ py::object modulus(const Packing& packing, const NamedSample& sample, double str
     effects::check_effects(sample.sample, sample.name);
     warn_of_open_contacts(packing.beads, sample.sample);
     const auto specimen = effects::actual_specimen(packing, sample.sample, origin.seed);
-    const Simulation simulation = effects::actual_simulation(specimen);
-    auto json = to_json(linear_response(simulation, {strain}), simulation, strain);
+    const dem_core::Simulation simulation = effects::actual_simulation(specimen);
+    auto json = to_json(dem_core::linear_response(simulation, {strain}), simulation, strain);
     json["diameters"] = to_string(specimen.sample.beads.diameters);
     json["provenance"] = to_json(provenance_of(origin));
     return json;

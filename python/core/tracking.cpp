@@ -49,7 +49,7 @@ py::dtype followed_fields() {
 /// Two scans and what lies between them.
 struct Track {
   std::vector<Bead> before, after;
-  Motion motion;
+  tracking::Motion motion;
   Provenance provenance;
 };
 
@@ -63,18 +63,18 @@ std::vector<Bead> scan_from(const py::object& array, const char* argument) {
 Track track(const py::object& before, const py::object& after, const std::optional<double>& strain,
             double reach, const Origin& origin, const Terms& terms) {
   Track result{scan_from(before, "before"), scan_from(after, "after"), {}, provenance_of(origin)};
-  TrackOptions options;
+  tracking::TrackOptions options;
   options.strain = strain;
   options.match.reach = reach;
   return work(terms, [&] {
-    result.motion = follow_beads(result.before, result.after, options);
+    result.motion = tracking::follow_beads(result.before, result.after, options);
     return std::move(result);
   });
 }
 
 std::vector<Followed> followed(const Track& track) {
   std::vector<Followed> rows;
-  const Motion& m = track.motion;
+  const tracking::Motion& m = track.motion;
   for (std::size_t k = 0; k < m.matches.size(); ++k)
     rows.push_back({track.before[static_cast<std::size_t>(m.matches[k].before)].id,
                     track.after[static_cast<std::size_t>(m.matches[k].after)].id, m.start[k],
@@ -90,7 +90,7 @@ std::vector<std::int64_t> ids(const std::vector<Bead>& beads, const std::vector<
 }
 
 py::dict registration_of(const Track& track) {
-  const Registration& r = track.motion.registration;
+  const tracking::Registration& r = track.motion.registration;
   py::dict found;
   found["rotation"] = py::cast(Eigen::Matrix3d(r.motion.rotation));
   found["scale"] = r.motion.scale;
@@ -103,7 +103,7 @@ py::dict registration_of(const Track& track) {
 }
 
 py::object band_of(const Track& track) {
-  const ShearBand& band = track.motion.band;
+  const kinematics::ShearBand& band = track.motion.band;
   if (!band.found) return py::none();
   py::dict found;
   found["normal"] = py::cast(Eigen::Vector3d(band.normal));
@@ -130,7 +130,7 @@ void add_tracking(py::module_& module) {
       .def_property_readonly("registration", &registration_of)
       .def_property_readonly("shear_band", &band_of)
       .def("write", [](const Track& track, const fs::path& path) {
-        write_motion(path, track.before, track.after, track.motion, track.provenance);
+        tracking::write_motion(path, track.before, track.after, track.motion, track.provenance);
       });
   module.def("track", &track);
 }

@@ -11,10 +11,10 @@
 namespace pendular::python {
 namespace {
 
-BeadTone tone_of(const std::string& word) {
-  if (word == "auto") return BeadTone::automatic;
-  if (word == "bright") return BeadTone::bright;
-  if (word == "dark") return BeadTone::dark;
+segmentation::BeadTone tone_of(const std::string& word) {
+  if (word == "auto") return segmentation::BeadTone::automatic;
+  if (word == "bright") return segmentation::BeadTone::bright;
+  if (word == "dark") return segmentation::BeadTone::dark;
   throw BadUsage(fmt::format("beads: found \"{}\", expected \"auto\", \"bright\" or \"dark\"", word));
 }
 
@@ -24,10 +24,10 @@ void require_between(const char* argument, double value, double lowest, double h
         fmt::format("{}: found {}, expected a number from {} to {}", argument, value, lowest, highest));
 }
 
-Segmentation find_beads(const Volume& volume, double cutoff, const std::string& tone,
-                        const std::optional<double>& min_diameter_um, bool bridges, double false_discoveries,
-                        bool calibrate_bridges, const Terms& terms) {
-  SegmentOptions options;
+segmentation::Segmentation find_beads(const Volume& volume, double cutoff, const std::string& tone,
+                                      const std::optional<double>& min_diameter_um, bool bridges,
+                                      double false_discoveries, bool calibrate_bridges, const Terms& terms) {
+  segmentation::SegmentOptions options;
   require_between("cutoff", cutoff, 0.0, 1.0);
   require_between("false_discoveries", false_discoveries, 0.0, 0.5);
   options.cutoff = cutoff;
@@ -35,7 +35,7 @@ Segmentation find_beads(const Volume& volume, double cutoff, const std::string& 
   if (min_diameter_um) options.least_diameter = 1e-6 * *min_diameter_um;
   if (bridges) options.bridges = {false_discoveries, calibrate_bridges};
   return work(terms, [&] {
-    Segmentation found = segment(volume, options);
+    segmentation::Segmentation found = segmentation::segment(volume, options);
     for (const auto& warning : found.warnings) warn(warning);
     return found;
   });
@@ -46,9 +46,9 @@ py::array part(const py::object& self, const std::vector<T>& values, const py::d
   return view_of(values.data(), fields, {static_cast<py::ssize_t>(values.size())}, self);
 }
 
-py::object bridges_told(const Segmentation& found) {
+py::object bridges_told(const segmentation::Segmentation& found) {
   if (!found.measured) return py::none();
-  const BridgeSummary& bridges = *found.measured;
+  const segmentation::BridgeSummary& bridges = *found.measured;
   py::dict told;
   told["pairs"] = bridges.pairs, told["bridges"] = bridges.bridges, told["none"] = bridges.none;
   told["undetermined"] = bridges.undetermined, told["hidden"] = bridges.unseen;
@@ -61,39 +61,44 @@ py::object bridges_told(const Segmentation& found) {
 }  // namespace
 
 void add_segmentation(py::module_& module) {
-  py::class_<Segmentation>(
+  py::class_<segmentation::Segmentation>(
       module, "Segmentation",
       "A tomogram taken apart: `beads`, `bridges` and irregular `grains` as structured arrays, SI; the "
       "container's inside as `specimen`, where one is seen.")
       .def_property_readonly("beads",
                              [](const py::object& self) {
-                               return part(self, self.cast<const Segmentation&>().beads, bead_fields());
+                               return part(self, self.cast<const segmentation::Segmentation&>().beads,
+                                           bead_fields());
                              })
       .def_property_readonly("bridges",
                              [](const py::object& self) {
-                               return part(self, self.cast<const Segmentation&>().bridges, bridge_fields());
+                               return part(self, self.cast<const segmentation::Segmentation&>().bridges,
+                                           bridge_fields());
                              })
       .def_property_readonly("grains",
                              [](const py::object& self) {
-                               return part(self, self.cast<const Segmentation&>().grains, bead_fields());
+                               return part(self, self.cast<const segmentation::Segmentation&>().grains,
+                                           bead_fields());
                              })
-      .def_readonly("specimen", &Segmentation::specimen)
+      .def_readonly("specimen", &segmentation::Segmentation::specimen)
       .def_property_readonly("measured_bridges", &bridges_told)
-      .def_property_readonly("threshold", [](const Segmentation& found) { return found.levels.threshold; })
-      .def_readonly("bright_beads", &Segmentation::bright_beads)
-      .def_readonly("porosity", &Segmentation::porosity)
-      .def_readonly("blur_m", &Segmentation::blur)
-      .def_readonly("noise_over_edge", &Segmentation::noise)
-      .def_readonly("rejected", &Segmentation::rejected)
+      .def_property_readonly("threshold",
+                             [](const segmentation::Segmentation& found) { return found.levels.threshold; })
+      .def_readonly("bright_beads", &segmentation::Segmentation::bright_beads)
+      .def_readonly("porosity", &segmentation::Segmentation::porosity)
+      .def_readonly("blur_m", &segmentation::Segmentation::blur)
+      .def_readonly("noise_over_edge", &segmentation::Segmentation::noise)
+      .def_readonly("rejected", &segmentation::Segmentation::rejected)
       .def("labels",
-           [](const Segmentation& found, const Volume& volume) {
+           [](const segmentation::Segmentation& found, const Volume& volume) {
              const py::gil_scoped_release released;
-             return label_volume(volume, found);
+             return segmentation::label_volume(volume, found);
            })
-      .def("write_qa", [](const Segmentation& found, const fs::path& folder, const Volume& volume) {
-        const py::gil_scoped_release released;
-        write_qa(folder, volume, found);
-      });
+      .def("write_qa",
+           [](const segmentation::Segmentation& found, const fs::path& folder, const Volume& volume) {
+             const py::gil_scoped_release released;
+             segmentation::write_qa(folder, volume, found);
+           });
   module.def("segment", &find_beads);
 }
 

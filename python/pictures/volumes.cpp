@@ -87,9 +87,9 @@ std::pair<Volume, Packing> phantom(const NamedSample& sample, const std::optiona
     if (!shown)
       packing.bridges =
           candidate_bridges(packing.beads, sample.sample.bridges.cutoff * sample.sample.beads.diameter);
-    draw_neck_diameters(packing, sample.sample, origin.seed);
+    phantom::draw_neck_diameters(packing, sample.sample, origin.seed);
     packing.provenance = provenance_of(origin);
-    Volume volume = make_phantom(packing, sample.sample.phantom, origin.seed);
+    Volume volume = phantom::make_phantom(packing, sample.sample.phantom, origin.seed);
     return std::pair(std::move(volume), std::move(packing));
   });
 }

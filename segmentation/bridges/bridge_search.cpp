@@ -8,7 +8,7 @@
 #include "base/quantile.h"
 #include "segmentation/bridges/neck_injection.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 constexpr double kReach = 1.0;  // of the typical radius, within which other balls may hide a crevice
@@ -220,4 +220,4 @@ BridgeSummary measure_bridges(const Volume& volume, const FittedBeads& fitted,
   return summary;
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -6,7 +6,7 @@
 #include "packing/packing.h"
 #include "segmentation/fit/bead_fit.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 struct BridgeOptions {
   double false_discoveries =
@@ -45,4 +45,4 @@ BridgeSummary measure_bridges(const Volume& volume, const FittedBeads& fitted,
                               const std::optional<Container>& container, const BridgeOptions& options,
                               std::vector<Bridge>& pairs);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

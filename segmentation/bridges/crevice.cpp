@@ -8,7 +8,7 @@
 #include "segmentation/fit/ball_profile.h"
 #include "segmentation/fit/rings.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 constexpr double kWidest = 0.6, kBlurs = 3.0;    // radii and blurs from the axis
@@ -180,7 +180,7 @@ NeckTemplates::NeckTemplates(std::span<const BallPair> pairs, double blur) {
     open.emplace_back(key, &made);
     made.necks.resize(shares.size());
   }
-  const Sharpness sharpness(std::sqrt(std::max(0.05, blur * blur - 1.0 / 12.0)));
+  const phantom::Sharpness sharpness(std::sqrt(std::max(0.05, blur * blur - 1.0 / 12.0)));
   for_blocks(open.size() * shares.size(), 1, [&](std::size_t n, std::size_t) {
     const auto& [key, made] = open[n / shares.size()];
     const double gap = kGapStep * static_cast<double>(key.first);
@@ -190,9 +190,9 @@ NeckTemplates::NeckTemplates(std::span<const BallPair> pairs, double blur) {
     const double up = half_height(std::min(across, 0.95 * radius), radius, gap) + kDeepest * blur;
     const auto high = static_cast<std::size_t>(up / NeckTemplate::kCell) + 2,
                wide = static_cast<std::size_t>(across / NeckTemplate::kCell) + 1;
-    const Neck neck{
+    const phantom::Neck neck{
         {Vec3::Zero(), radius}, {Vec3(0.0, 0.0, length), radius}, shares[n % shares.size()] * radius};
-    const NeckImage image(neck, sharpness);
+    const phantom::NeckImage image(neck, sharpness);
     auto& cells = made->necks[n % shares.size()];
     for (std::size_t u = 0; u < high; ++u)
       for (std::size_t r = 0; r < wide; ++r)
@@ -255,4 +255,4 @@ std::optional<NeckEvidence> neck_evidence(const Volume& volume, std::span<const 
   return evidence;
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

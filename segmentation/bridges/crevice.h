@@ -11,7 +11,7 @@
 #include "phantom/phantom_raster.h"
 #include "segmentation/fit/ball_fit.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// Two balls that may have a neck between them, in voxels.
 struct BallPair {
@@ -98,4 +98,4 @@ std::optional<NeckEvidence> neck_evidence(const Volume& volume, std::span<const 
                                           const std::optional<Container>& container,
                                           const ImageKnowledge& knowledge, const NeckTemplates& templates);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

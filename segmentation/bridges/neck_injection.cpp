@@ -6,7 +6,7 @@
 #include "base/parallel.h"
 #include "segmentation/fit/rings.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 constexpr double kShares[] = {0.12, 0.16, 0.2, 0.25, 0.3, 0.36, 0.44, 0.54};
@@ -58,9 +58,9 @@ Part part_about(const Volume& volume, std::span<const GreyBall> balls, const Bal
 }
 
 void inject(Part& part, double radius, double contrast, double blur) {
-  const Sharpness sharpness(std::sqrt(std::max(0.05, blur * blur - 1.0 / 12.0)));
+  const phantom::Sharpness sharpness(std::sqrt(std::max(0.05, blur * blur - 1.0 / 12.0)));
   const GreyBall &a = part.balls[0], &b = part.balls[1];
-  const NeckImage neck({{a.centre, a.radius}, {b.centre, b.radius}, radius}, sharpness);
+  const phantom::NeckImage neck({{a.centre, a.radius}, {b.centre, b.radius}, radius}, sharpness);
   auto& pixels = std::get<std::vector<float>>(part.volume.pixels);
   const auto [nx, ny, nz] = part.volume.size;
   std::vector<float> slice(nx * ny);
@@ -118,4 +118,4 @@ std::vector<NeckRecovery> recover_injected(const Volume& volume, std::span<const
   return points;
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

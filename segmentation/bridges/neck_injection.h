@@ -5,7 +5,7 @@
 
 #include "segmentation/bridges/neck_statistics.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// What became of necks of one size that were put into the picture.
 struct NeckRecovery {
@@ -27,4 +27,4 @@ std::vector<NeckRecovery> recover_injected(const Volume& volume, std::span<const
                                            const ImageKnowledge& knowledge, const NeckPopulation& population,
                                            double threshold);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

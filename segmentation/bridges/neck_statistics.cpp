@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 constexpr std::size_t kFiner = 5;  // points per tried share
@@ -172,4 +172,4 @@ std::vector<BridgeState> neck_states(std::span<const double> probabilities, doub
   return states;
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -9,7 +9,7 @@
 #include "packing/packing.h"
 #include "segmentation/bridges/crevice.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// All necks of a volume, lengths in voxels.
 struct NeckPopulation {
@@ -40,4 +40,4 @@ NeckVerdict neck_verdict(const NeckEvidence& crevice, double radius, const NeckP
 /// undetermined.
 std::vector<BridgeState> neck_states(std::span<const double> probabilities, double false_discoveries);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -10,7 +10,7 @@
 #include "segmentation/fit/level_field.h"
 #include "segmentation/thresholds.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 /// A neck that shows in the volume.
@@ -152,4 +152,4 @@ void fit_with_polymer(const Volume& volume, const std::optional<Container>& cont
     if (again[n].converged) fitted.fits[n] = again[n];
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -4,7 +4,7 @@
 
 #include "segmentation/fit/bead_fit.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// Fits beads once more with what is between them known, where noise makes it worth while: where the typical
 /// standard error of a centre is above 0.015 voxel. Cones that may hold polymer are up to two thirds of a
@@ -15,4 +15,4 @@ namespace pendular {
 void fit_with_polymer(const Volume& volume, const std::optional<Container>& container, double cutoff,
                       FittedBeads& fitted);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -10,7 +10,7 @@
 #include "segmentation/fit/rings.h"
 #include "segmentation/thresholds.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 /// A voxel of a shell, relative to the ball's first centre.
@@ -308,4 +308,4 @@ BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::siz
   return fit;
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

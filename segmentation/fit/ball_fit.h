@@ -8,7 +8,7 @@
 #include "segmentation/search/container.h"
 #include "volume/volume.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// A ball in voxels of the volume and grey values.
 struct GreyBall {
@@ -75,4 +75,4 @@ BallFit fit_ball(const Volume& volume, std::span<const GreyBall> balls, std::siz
                  std::span<const Neighbour> neighbours, const std::optional<Container>& container,
                  const FitSetting& setting, const KnownGrey& known = {});
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 /// Normal distribution and density on a grid fine enough for linear interpolation to 1e-7: the fits spend
@@ -52,4 +52,4 @@ BallProfile ball_profile(double r, double R, double s) {
   return profile;
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// A ball of radius R, 1 inside and 0 outside, seen through a Gaussian point spread of standard deviation s,
 /// at the distance r from its centre, and its derivatives. Exact but for terms of order exp(−2R²/s²): P =
@@ -15,4 +15,4 @@ struct BallProfile {
 
 BallProfile ball_profile(double r, double R, double s);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -9,7 +9,7 @@
 #include "segmentation/fit/level_field.h"
 #include "segmentation/thresholds.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 constexpr double cone_share = 0.53;  // of the typical radius, as long as the blur is not known: 32°
@@ -228,4 +228,4 @@ FittedBeads fit_beads(const Volume& volume, const BeadSearch& search, double cut
   return result;
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -12,7 +12,7 @@
 #include "segmentation/fit/rings.h"
 #include "segmentation/search/bead_search.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// The balls that the grey values bear out, all fitted together with what surrounds each.
 struct FittedBeads {
@@ -55,4 +55,4 @@ FittedBeads fit_beads(const Volume& volume, const BeadSearch& search, double cut
 /// with m its residual over its contrast: irregular pores can be fitted too, but badly.
 double ball_share(const Volume& volume, const BeadSearch& search, double cutoff);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

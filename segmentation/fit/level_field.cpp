@@ -3,7 +3,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 constexpr Eigen::Index kTerms = 10;
@@ -48,4 +48,4 @@ void set_level_slopes(std::vector<GreyBall>& balls) {
   }
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

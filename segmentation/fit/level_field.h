@@ -4,7 +4,7 @@
 
 #include "segmentation/fit/ball_fit.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// Gives each ball the slopes of contrast and background at its place, from quadratics in position through
 /// those of all balls (least squares): beam hardening makes grey values fall towards the middle of a
@@ -12,4 +12,4 @@ namespace pendular {
 /// too few balls for it.
 void set_level_slopes(std::vector<GreyBall>& balls);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

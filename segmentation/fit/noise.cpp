@@ -9,7 +9,7 @@
 #include "segmentation/fit/rings.h"
 #include "segmentation/thresholds.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 constexpr std::size_t most_balls = 200;
@@ -162,4 +162,4 @@ VarianceInflation variance_inflation(const Noise& noise, double radius, double b
   return {std::max(1.0, x_sum / x_white), std::max(1.0, radius_sum / radius_white)};
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

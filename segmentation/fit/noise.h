@@ -5,7 +5,7 @@
 
 #include "segmentation/fit/ball_fit.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// Noise of the grey values, from the cores of the beads.
 struct Noise {
@@ -30,4 +30,4 @@ struct VarianceInflation {
 };
 VarianceInflation variance_inflation(const Noise& noise, double radius, double blur);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "segmentation/thresholds.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 constexpr double kStepsPerVoxel = 4.0;
@@ -232,4 +232,4 @@ std::shared_ptr<const Rings> find_rings(const Volume& volume, std::span<const Gr
   return std::make_shared<const Rings>(std::move(rings));
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -7,7 +7,7 @@
 
 #include "segmentation/fit/ball_fit.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// Rings about the axis of rotation, which faults of a detector leave: grey values that depend on a voxel's
 /// slice and on its distance from the axis alone, in steps of a quarter of a voxel.
@@ -39,4 +39,4 @@ double grey_at(std::span<const T> pixels, const Volume& volume, const Rings* rin
 /// Nothing where neither shows, or where both are fainter than a seventh of the noise.
 std::shared_ptr<const Rings> find_rings(const Volume& volume, std::span<const GreyBall> balls, double margin);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -11,7 +11,7 @@
 #include "segmentation/qa/qa_contacts.h"
 #include "segmentation/qa/qa_radii.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 /// A plane of the volume: horizontal axis x, vertical axis y or z (upwards), at voxel `level` of the third.
@@ -215,4 +215,4 @@ void write_qa(const fs::path& folder, const Volume& volume, const Segmentation& 
     write_png(folder / "recovery.png", recovery_curve(segmentation.measured->injected));
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -2,7 +2,7 @@
 
 #include "segmentation/segment.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// Pictures by which to judge a segmentation, written into `folder` (PNG):
 /// - `slice_xy_1.png` … and `slice_xz_1.png` …: slices at 1/4, 1/2 and 3/4 of the beads' extent with the
@@ -17,4 +17,4 @@ namespace pendular {
 ///   `recovery.png` (qa_contacts.h).
 void write_qa(const fs::path& folder, const Volume& volume, const Segmentation& segmentation);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

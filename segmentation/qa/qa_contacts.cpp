@@ -9,7 +9,7 @@
 
 #include "segmentation/fit/ball_profile.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 constexpr std::size_t kPerBand = 24, kPerRow = 12;
@@ -230,4 +230,4 @@ cv::Mat recovery_curve(const std::vector<InjectedNecks>& injected) {
   return image;
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -4,7 +4,7 @@
 
 #include "segmentation/segment.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// Cuts along the axis of contacts, the two beads left and right, in three bands: twenty-four bridges from
 /// the thinnest to the thickest (green), as many of the most doubtful (orange), and as many pairs without a
@@ -20,4 +20,4 @@ cv::Mat mean_residuals(const Volume& volume, const Segmentation& segmentation);
 /// Share of the necks put into the picture that were found, over their diameter.
 cv::Mat recovery_curve(const std::vector<InjectedNecks>& injected);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

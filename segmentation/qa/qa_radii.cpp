@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 constexpr int kRings = 5, kLayers = 8, kCell = 110, kLeft = 90, kTop = 70, kFoot = 60;
@@ -95,4 +95,4 @@ cv::Mat radius_map(const Volume& volume, const Segmentation& segmentation) {
   return image;
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -4,7 +4,7 @@
 
 #include "segmentation/segment.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// Mean diameters of beads over distance from the axis and height, less the one that all beads should have on
 /// average, their median: blue smaller, red larger, full colour at four standard errors of a cell; each cell
@@ -12,4 +12,4 @@ namespace pendular {
 /// hardening, a tilted detector or a wrong centre of rotation make bands.
 cv::Mat radius_map(const Volume& volume, const Segmentation& segmentation);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

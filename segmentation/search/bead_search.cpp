@@ -9,7 +9,7 @@
 #include "segmentation/thresholds.h"
 #include "volume/resample.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 Grid<std::uint8_t> mask_of(const Grid<float>& grey, double threshold, bool bright) {
@@ -238,4 +238,4 @@ std::vector<Seed> search_missed(const Grid<std::uint8_t>& mask, const std::vecto
   return find_seeds(rest, least_radius);
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

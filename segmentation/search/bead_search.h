@@ -9,7 +9,7 @@
 #include "segmentation/search/grid.h"
 #include "segmentation/search/seeds.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 enum class BeadTone { automatic, bright, dark };
 
@@ -49,4 +49,4 @@ BeadSearch search_beads(const Volume& volume, BeadTone tone, std::optional<doubl
 std::vector<Seed> search_missed(const Grid<std::uint8_t>& mask, const std::vector<Seed>& found,
                                 double least_radius);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

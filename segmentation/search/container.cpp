@@ -9,7 +9,7 @@
 #include "segmentation/search/grey_levels.h"
 #include "segmentation/thresholds.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 struct MeanAndSpread {
@@ -262,4 +262,4 @@ void clear_outside(Grid<std::uint8_t>& mask, const Container& container) {
   });
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

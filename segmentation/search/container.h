@@ -4,7 +4,7 @@
 
 #include "segmentation/search/grid.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// What surrounds the beads in the picture, in voxels of the full volume.
 struct Container {
@@ -25,4 +25,4 @@ bool within(const Container& container, const Vec3& p);
 /// Clears the mask outside the tube and beyond the pistons.
 void clear_outside(Grid<std::uint8_t>& mask, const Container& container);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

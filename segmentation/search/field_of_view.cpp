@@ -5,7 +5,7 @@
 
 #include "base/parallel.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 /// Greatest distance from the middle, squared, of a voxel of slice k that differs from `value`.
@@ -89,4 +89,4 @@ void fill_beyond(Grid<float>& grey, const FieldOfView& view) {
   });
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

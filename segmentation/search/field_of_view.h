@@ -5,7 +5,7 @@
 #include "segmentation/search/grey_levels.h"
 #include "segmentation/search/grid.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// The disc about the slices' middle that a reconstruction fills; beyond it there is one value, in all
 /// slices.
@@ -24,4 +24,4 @@ void leave_out(Histogram& histogram, const FieldOfView& view);
 /// Gives nodes beyond the view the mean of those just within, as if what is there went on.
 void fill_beyond(Grid<float>& grey, const FieldOfView& view);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -10,7 +10,7 @@
 
 #include "base/parallel.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 constexpr std::size_t most_bins = 65536;
@@ -164,4 +164,4 @@ GreyLevels grey_levels(const Histogram& histogram) {
   return levels;
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -4,7 +4,7 @@
 
 #include "volume/volume.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// How often each grey value occurs: bin k covers [lowest + k·width, lowest + (k+1)·width).
 struct Histogram {
@@ -28,4 +28,4 @@ struct GreyLevels {
 /// class, nor on a faint third one (polymer), as Otsu's threshold does.
 GreyLevels grey_levels(const Histogram& histogram);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

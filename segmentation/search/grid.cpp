@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "segmentation/search/grid.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 using FloatImage = itk::Image<float, 3>;
@@ -104,4 +104,4 @@ Grid<float> distance_inside(const Grid<std::uint8_t>& mask) {
   return distance;
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -8,7 +8,7 @@
 #include "base/vec3.h"
 #include "volume/volume.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// A volume reduced by a whole factor, or refined, on which beads and container are looked for. Positions
 /// anywhere in segmentation are in voxels of the full volume; node (i, j, k) lies at at(i, j, k).
@@ -56,4 +56,4 @@ Grid<float> reduced(const Volume& volume, std::size_t factor, double sd);
 /// positive (ITK's signed Maurer map, on one thread). What lies outside the grid counts as neither.
 Grid<float> distance_inside(const Grid<std::uint8_t>& mask);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

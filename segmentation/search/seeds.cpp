@@ -9,7 +9,7 @@
 
 #include "base/parallel.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 /// Sets nodes to zero but those with `reach` nodes of the mask on either side along one line of it; beyond
@@ -220,4 +220,4 @@ double typical_radius(const std::vector<Seed>& seeds) {
   return radii.back();
 }
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -4,7 +4,7 @@
 
 #include "segmentation/search/grid.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 
 /// Where a bead may be, to within about two nodes; voxels of the full volume.
 struct Seed {
@@ -20,4 +20,4 @@ std::vector<Seed> find_seeds(const Grid<std::uint8_t>& mask, double least_radius
 /// The radius that halves the total volume of the seeds' balls: what most of the material is made of.
 double typical_radius(const std::vector<Seed>& seeds);
 
-}  // namespace pendular
+}  // namespace pendular::segmentation

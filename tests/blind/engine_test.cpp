@@ -128,7 +128,7 @@ TEST(Engine, IsToldTheSpecimenToTheLastBit) {
   EXPECT_EQ(run["engine"]["breaking"], "limits");
   EXPECT_EQ(run["effects"], json({{"missing_bridges", 0.1}}));
   EXPECT_EQ(run["test"]["unload_at"], json({0.01}));
-  EXPECT_EQ(run["law"]["kn_n_per_m"].get<double>(), bond_stiffness(sample).normal);
+  EXPECT_EQ(run["law"]["kn_n_per_m"].get<double>(), micromechanics::bond_stiffness(sample).normal);
 }
 
 TEST(Engine, IsToldHowStiffnessFollowsTheBridgesBody) {
@@ -137,9 +137,10 @@ TEST(Engine, IsToldHowStiffnessFollowsTheBridgesBody) {
   sample.effects = {{"bridge_gap_spread", 3.0}};
   const json table = json::parse(run_text({engines()[0], packing, sample, 7, 0.02, {}, {}}))["stiffness"];
   const double gap = table["gap_m"][4], neck = table["neck_m"][6];
-  const BridgeBody mean = mean_bridge(sample);
-  const std::vector<BridgeBody> bodies = {mean, {neck, gap, mean.diameter_i, mean.diameter_j}};
-  const auto bonds = bridge_stiffnesses(bodies, polymer_of(sample)).bonds;
+  const micromechanics::BridgeBody mean = micromechanics::mean_bridge(sample);
+  const std::vector<micromechanics::BridgeBody> bodies = {mean,
+                                                          {neck, gap, mean.diameter_i, mean.diameter_j}};
+  const auto bonds = micromechanics::bridge_stiffnesses(bodies, micromechanics::polymer_of(sample)).bonds;
   EXPECT_NEAR(table["normal"][4][6].get<double>(), bonds[1].normal / bonds[0].normal, 1e-3);
   EXPECT_NEAR(table["twisting"][4][6].get<double>(), bonds[1].twisting / bonds[0].twisting, 1e-3);
 }

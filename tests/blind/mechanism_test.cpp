@@ -64,8 +64,8 @@ std::vector<CurveRow> rows_of(const std::vector<std::pair<double, double>>& poin
   return rows;
 }
 
-Simulation machine() {
-  Simulation simulation;
+dem_core::Simulation machine() {
+  dem_core::Simulation simulation;
   simulation.initial_height = 2e-3, simulation.section = 2e-6;
   return simulation;
 }

@@ -13,7 +13,7 @@
 #include "scratch.h"
 #include "specimens.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 using test::disordered;
@@ -229,4 +229,4 @@ TEST(Checkpoint, StaysWhereMotionIsNotANumber) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::dem_core

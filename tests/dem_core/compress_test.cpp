@@ -15,7 +15,7 @@
 #include "scratch.h"
 #include "specimens.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 using test::columns;
@@ -53,12 +53,12 @@ TEST(Compress, BridgesOfDifferentGapsAreDifferentSpringsInSeries) {
   Packing packing = columns(1, 5, 0.0);
   const double gaps[] = {2e-6, 6e-6, 10e-6, 4e-6};
   double shift = 0.0, compliance = 0.0;  // of the beads; of the bridges in series, m/N
-  const double k_glass = 10.0 * bond_stiffness(sample).normal;
+  const double k_glass = 10.0 * micromechanics::bond_stiffness(sample).normal;
   for (int k = 0; k < 4; ++k) {
     shift += gaps[k];
     packing.beads[k + 1].centre.z() += shift;
-    const BridgeBody body = {sample.bridges.diameter, gaps[k], 200.9e-6, 200.9e-6};
-    compliance += 1.0 / bridge_stiffness(body, polymer_of(sample)).normal;
+    const micromechanics::BridgeBody body = {sample.bridges.diameter, gaps[k], 200.9e-6, 200.9e-6};
+    compliance += 1.0 / micromechanics::bridge_stiffness(body, micromechanics::polymer_of(sample)).normal;
   }
   packing.bridges = candidate_bridges(packing.beads, 0.064 * 200.9e-6);
   ScratchFolder folder;
@@ -193,4 +193,4 @@ TEST(Compress, NothingToCompress) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::dem_core

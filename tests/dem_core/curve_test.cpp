@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 constexpr double kModulus = 30e6, kToe = 0.006, kLimit = 0.035;
@@ -70,4 +70,4 @@ TEST(Curve, NothingWhereThereIsNothing) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -11,7 +11,7 @@
 #include "dem_core/step/stepper.h"
 #include "specimens.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 using test::columns;
@@ -257,4 +257,4 @@ TEST(LinearResponse, FailsWhereNothingLeadsFromPlatenToPlaten) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "kinematics/shear_band.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 constexpr double kD = 2e-4;
@@ -36,7 +36,8 @@ TEST(LocalStrain, AffineDeformationIsFoundExactly) {
   const Eigen::Matrix3d green = 0.5 * (gradient.transpose() * gradient - Eigen::Matrix3d::Identity());
   const Eigen::Matrix3d deviator = green - green.trace() / 3 * Eigen::Matrix3d::Identity();
   std::size_t undetermined = 0;
-  for (const auto& strain : local_strains(start, now, std::vector<double>(start.size(), 0.5 * kD))) {
+  for (const auto& strain :
+       kinematics::local_strains(start, now, std::vector<double>(start.size(), 0.5 * kD))) {
     if (strain.shear == 0.0) {
       ++undetermined;  // a corner with too few neighbours
       continue;
@@ -57,7 +58,7 @@ TEST(ShearBand, PlantedBandIsFound) {
     for (std::size_t k = 0; k < points.size(); ++k)
       shear.push_back(0.01 + 0.005 * random_uniform(9, k) +
                       0.1 * (std::fabs((points[k] - through).dot(normal)) < 1.5 * kD));
-    const ShearBand band = find_shear_band(points, shear, kD);
+    const kinematics::ShearBand band = kinematics::find_shear_band(points, shear, kD);
     EXPECT_TRUE(band.found);
     EXPECT_LT(std::acos(std::fabs(band.normal.dot(normal))), 5.0 * M_PI / 180.0) << angle;
     EXPECT_NEAR(band.angle_to_axis, a, 5.0 * M_PI / 180.0);
@@ -70,8 +71,8 @@ TEST(ShearBand, UniformStrainHasNone) {
   const auto points = lattice(12);
   std::vector<double> shear;
   for (std::size_t k = 0; k < points.size(); ++k) shear.push_back(0.02 + 0.02 * random_uniform(1, k));
-  EXPECT_FALSE(find_shear_band(points, shear, kD).found);
+  EXPECT_FALSE(kinematics::find_shear_band(points, shear, kD).found);
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::dem_core

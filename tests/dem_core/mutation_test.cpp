@@ -3,7 +3,7 @@
 #include "dem_core/checkpoint.h"
 #include "scratch.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 TEST(Mutation, NoDamageToACheckpointIsAccepted) {
@@ -20,4 +20,4 @@ TEST(Mutation, NoDamageToACheckpointIsAccepted) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -16,7 +16,7 @@
 #include "scratch.h"
 #include "specimens.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 using test::columns;
@@ -222,4 +222,4 @@ TEST(FrameObservers, AreSwitchedOffOneByOne) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 constexpr double kRadius = 1e-4, kMass = 1e-8, kInertia = 0.4 * kMass * kRadius * kRadius;
@@ -287,4 +287,4 @@ TEST(Pair, SlippingContactLosesWhatIsPutIn) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::dem_core

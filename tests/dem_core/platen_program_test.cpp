@@ -9,7 +9,7 @@
 #include "scratch.h"
 #include "specimens.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 using test::columns;
@@ -124,4 +124,4 @@ TEST(PlatenProgram, KeysThatDoNotGoTogetherAreRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::dem_core

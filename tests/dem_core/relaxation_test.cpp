@@ -11,7 +11,7 @@
 #include "scratch.h"
 #include "specimens.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 using test::columns;
@@ -113,4 +113,4 @@ TEST(Relaxation, LeavesUnloadingAndHoldsToThePlatensSpeed) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::dem_core

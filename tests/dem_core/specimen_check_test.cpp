@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "specimens.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 using test::columns;
@@ -67,4 +67,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::dem_core

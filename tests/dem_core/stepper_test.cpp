@@ -12,7 +12,7 @@
 #include "dem_core/step/step_kernels.h"
 #include "specimens.h"
 
-namespace pendular {
+namespace pendular::dem_core {
 namespace {
 
 using test::disordered;
@@ -145,4 +145,4 @@ TEST(Stepper, UnknownInstructionSetIsRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::dem_core

@@ -8,9 +8,9 @@ namespace {
 TEST(BondDamage, StiffnessFallsLinearlyOverTheLastShareOfLifeAndStaysLost) {
   const double theta = 0.6, limit = 1.5e-10;
   const auto change = find_effect("bond_damage", "test").evolution({}, theta);
-  PairProperties bond;
+  dem_core::PairProperties bond;
   bond.kn = 5760.0, bond.kt = 325.0, bond.break_limit = limit;
-  PairHistory history = {};
+  dem_core::PairHistory history = {};
   double memory = 0.0;
   const auto share_at = [&](double life) {
     change({life * std::sqrt(limit), 0.0, 16e-6, 1e-3, Vec3(0.0, 0.0, 1.0), bond, history, &memory});

@@ -7,10 +7,11 @@ namespace {
 
 TEST(BridgeBending, IsTheFiniteElementOneTimesTheta) {
   const Sample sample = with("bridge_bending", 1.5);
-  const BondStiffness fe = bridge_stiffness(mean_bridge(sample), polymer_of(sample));
-  const Simulation simulation = actual_simulation(actual_specimen(chains(), sample, 1));
+  const micromechanics::BondStiffness fe = micromechanics::bridge_stiffness(
+      micromechanics::mean_bridge(sample), micromechanics::polymer_of(sample));
+  const dem_core::Simulation simulation = actual_simulation(actual_specimen(chains(), sample, 1));
   EXPECT_TRUE(simulation.law.bending);
-  const PairProperties& bond = simulation.pairs.front().properties;
+  const dem_core::PairProperties& bond = simulation.pairs.front().properties;
   EXPECT_NEAR(bond.k_bend, 1.5 * fe.bending, 1e-3 * fe.bending);
   EXPECT_NEAR(bond.k_twist, 1.5 * fe.twisting, 1e-3 * fe.twisting);
   EXPECT_EQ(bond.kn, 5760.0);

@@ -8,9 +8,10 @@ namespace {
 TEST(BridgeDiameterSpread, BondsHaveTheStiffnessOfTheirNecks) {
   const Sample sample = with("bridge_diameter_spread", 12.7);
   const auto specimen = actual_specimen(disordered(4, 4), sample, 1);
-  const Simulation simulation = actual_simulation(specimen);
-  const Polymer polymer = polymer_of(sample);
-  const double stated = bridge_stiffness(mean_bridge(sample), polymer).tangential;
+  const dem_core::Simulation simulation = actual_simulation(specimen);
+  const micromechanics::Polymer polymer = micromechanics::polymer_of(sample);
+  const double stated =
+      micromechanics::bridge_stiffness(micromechanics::mean_bridge(sample), polymer).tangential;
   double mean = 0.0, square = 0.0;
   for (const auto& body : specimen.bodies)
     mean += body.neck_diameter, square += std::pow(body.neck_diameter, 2);

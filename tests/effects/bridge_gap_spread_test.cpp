@@ -8,9 +8,9 @@ namespace {
 TEST(BridgeGapSpread, ChainsAreSpringsInSeriesOfTheirGaps) {
   const Sample sample = with("bridge_gap_spread", 3.0, 1e-3);
   const auto specimen = actual_specimen(chains(), sample, 1);
-  const Simulation simulation = actual_simulation(specimen);
-  const Polymer polymer = polymer_of(sample);
-  const double stated = bridge_stiffness(mean_bridge(sample), polymer).normal;
+  const dem_core::Simulation simulation = actual_simulation(specimen);
+  const micromechanics::Polymer polymer = micromechanics::polymer_of(sample);
+  const double stated = micromechanics::bridge_stiffness(micromechanics::mean_bridge(sample), polymer).normal;
   double mean = 0.0;
   std::vector<double> soft(9, 2.0 / 57600.0);
   for (std::size_t k = 0; k < specimen.bodies.size(); ++k) {
@@ -20,8 +20,8 @@ TEST(BridgeGapSpread, ChainsAreSpringsInSeriesOfTheirGaps) {
     // A longer bridge breaks later: by its height, which is the pair's own gap and the excess.
     const auto& bond = simulation.bonds[k];
     EXPECT_NEAR(bond.height,
-                rim_height(kGap * kBeadDiameter + specimen.bodies[k].gap - 2e-6, kBeadDiameter, kBeadDiameter,
-                           73.9e-6),
+                micromechanics::rim_height(kGap * kBeadDiameter + specimen.bodies[k].gap - 2e-6,
+                                           kBeadDiameter, kBeadDiameter, 73.9e-6),
                 1e-12);
   }
   double sum = 0.0;
@@ -35,7 +35,7 @@ TEST(BridgeGapSpread, ChainsAreSpringsInSeriesOfTheirGaps) {
 TEST(BridgeGapSpread, LeavesTheBridgesThatAre) {
   const Sample sample = with("bridge_gap_spread", 3.0);
   EXPECT_EQ(actual_simulation(actual_specimen(disordered(4, 4), sample, 1)).bonds.size(),
-            build_simulation(disordered(4, 4), sample).bonds.size());
+            dem_core::build_simulation(disordered(4, 4), sample).bonds.size());
 }
 
 }  // namespace

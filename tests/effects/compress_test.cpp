@@ -18,7 +18,8 @@ Sample all_at_once() {
   return sample;
 }
 
-std::string curve_of(const Sample& sample, const fs::path& folder, const CompressOptions& options = {}) {
+std::string curve_of(const Sample& sample, const fs::path& folder,
+                     const dem_core::CompressOptions& options = {}) {
   compress_with_effects(disordered(3, 4), sample, 5, folder, options);
   return read_text(folder / "curve.csv") + read_text(folder / "events.csv");
 }
@@ -28,7 +29,7 @@ TEST(CompressWithEffects, WithoutEffectsIsTheModel) {
   sample.effects.clear();
   sample.beads.diameters = Diameters::drawn;
   ScratchFolder folder;
-  compress(realise(disordered(3, 4), sample, 5), sample, folder / "model", {});
+  dem_core::compress(dem_core::realise(disordered(3, 4), sample, 5), sample, folder / "model", {});
   EXPECT_EQ(curve_of(sample, folder / "run"),
             read_text(folder / "model" / "curve.csv") + read_text(folder / "model" / "events.csv"));
 }
@@ -46,7 +47,7 @@ TEST(CompressWithEffects, GoesOnFromACheckpointAsIfNeverStopped) {
   ScratchFolder folder;
   Sample sample = all_at_once();
   sample.compression.rows_per_strain = 100.0;
-  CompressOptions options;
+  dem_core::CompressOptions options;
   options.checkpoint_every = 0.0;  // after every row: of the first of two, and at the end
   const std::string whole = curve_of(sample, folder / "run", options);
   fs::remove(folder / "run" / "checkpoint");

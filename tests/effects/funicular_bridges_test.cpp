@@ -3,7 +3,7 @@
 namespace pendular::effects::test {
 namespace {
 
-BridgeBody body_at(double content, double theta) {
+micromechanics::BridgeBody body_at(double content, double theta) {
   Sample sample = with("funicular_bridges", theta);
   set_polymer_content(sample, content);
   return actual_specimen(chains(), sample, 1).bodies.front();

@@ -5,8 +5,8 @@ namespace {
 
 TEST(InterfaceStrength, HasTheMeanAndTheSpreadStated) {
   const Sample sample = with("interface_strength", 0.4);
-  const Simulation believed = build_simulation(disordered(5, 5), sample);
-  const Simulation actual = actual_simulation(actual_specimen(disordered(5, 5), sample, 1));
+  const dem_core::Simulation believed = dem_core::build_simulation(disordered(5, 5), sample);
+  const dem_core::Simulation actual = actual_simulation(actual_specimen(disordered(5, 5), sample, 1));
   double mean = 0.0, square = 0.0, n = 0.0;
   for (std::size_t p = 0; p < believed.pairs.size(); ++p) {
     if (believed.pairs[p].bond < 0) continue;

@@ -19,7 +19,7 @@ TEST(LoadingRate, IsTheSpeedOverTheStatedOne) {
 TEST(LoadingRate, BeadsHaveNineTimesTheEnergyAtThriceTheSpeed) {
   Sample sample = with("loading_rate", 3.0, 5e-3);
   sample.compression.control = Control::speed;
-  const auto kinetic = [](const CompressResult& done) {
+  const auto kinetic = [](const dem_core::CompressResult& done) {
     double sum = 0.0;
     for (const auto& row : done.rows) sum += row.kinetic;
     return sum / static_cast<double>(done.rows.size());

@@ -31,7 +31,7 @@ TEST(MissingBridges, LeaveWholeChainsOnly) {
   ASSERT_GT(broken.size(), 0u);
   ASSERT_LT(broken.size(), 9u);
   const auto done = run(chains(), sample, 4);
-  const Simulation built = actual_simulation(specimen);
+  const dem_core::Simulation built = actual_simulation(specimen);
   // Chains of a height of six diameters: what is cut rests on its platen, and does not reach the other half.
   const double whole = static_cast<double>(9 - broken.size());
   const double expected = whole * chain_stiffness(5760.0) * built.initial_height / built.section;

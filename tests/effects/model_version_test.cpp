@@ -102,11 +102,11 @@ double difference(const std::vector<Row>& a, const std::vector<Row>& b) {
 }
 
 class ModelVersion : public testing::TestWithParam<std::string> {
-  void TearDown() override { use_instruction_set(instruction_sets().front()); }
+  void TearDown() override { dem_core::use_instruction_set(dem_core::instruction_sets().front()); }
 };
 
 TEST_P(ModelVersion, IsRaisedWithWhatTheModelComputes) {
-  use_instruction_set(GetParam());
+  dem_core::use_instruction_set(GetParam());
   const auto found = computed();
   const fs::path proposed = fs::temp_directory_path() / "model_version.csv";
   const std::string what_to_do = fmt::format(
@@ -130,7 +130,7 @@ TEST_P(ModelVersion, IsRaisedWithWhatTheModelComputes) {
   FAIL() << kStored << " is of another version than " << kModelVersion << ": store " << proposed.string();
 }
 
-INSTANTIATE_TEST_SUITE_P(InstructionSets, ModelVersion, testing::ValuesIn(instruction_sets()),
+INSTANTIATE_TEST_SUITE_P(InstructionSets, ModelVersion, testing::ValuesIn(dem_core::instruction_sets()),
                          [](const auto& set) { return set.param; });
 
 }  // namespace

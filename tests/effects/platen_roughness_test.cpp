@@ -4,9 +4,9 @@ namespace pendular::effects::test {
 namespace {
 
 TEST(PlatenRoughness, HasTheRootMeanSquareStatedAndTouches) {
-  const Simulation s =
+  const dem_core::Simulation s =
       actual_simulation(actual_specimen(disordered(5, 5), with("platen_roughness", 10.0), 1));
-  for (const Platen* platen : {&s.bottom, &s.top}) {
+  for (const dem_core::Platen* platen : {&s.bottom, &s.top}) {
     double square = 0.0, nearest = 1.0;
     for (std::size_t k = 0; k < s.beads.size(); ++k) {
       square += platen->relief[k] * platen->relief[k];
@@ -20,7 +20,7 @@ TEST(PlatenRoughness, HasTheRootMeanSquareStatedAndTouches) {
 
 TEST(PlatenRoughness, ChainsTouchOneAfterTheOther) {
   const Sample sample = with("platen_roughness", 1.0, 5e-3);
-  const Simulation s = actual_simulation(actual_specimen(chains(), sample, 1));
+  const dem_core::Simulation s = actual_simulation(actual_specimen(chains(), sample, 1));
   const auto done = run(chains(), sample);
   const double k = chain_stiffness(5760.0);
   for (const auto& row : done.rows) {

@@ -4,8 +4,8 @@ namespace pendular::effects::test {
 namespace {
 
 TEST(PlatenTilt, IsAPlaneThatTouchesTheHighestBead) {
-  const Simulation s = actual_simulation(actual_specimen(chains(), with("platen_tilt", 1.0), 1));
-  const Simulation flat = build_simulation(chains(), with("platen_tilt", 1.0));
+  const dem_core::Simulation s = actual_simulation(actual_specimen(chains(), with("platen_tilt", 1.0), 1));
+  const dem_core::Simulation flat = dem_core::build_simulation(chains(), with("platen_tilt", 1.0));
   double nearest = 1.0;
   for (std::size_t k = 0; k < s.beads.size(); ++k) {
     nearest = std::min(nearest, s.top.gap(k, s.beads.position[k].z(), s.beads.radius[k]));

@@ -7,11 +7,11 @@ namespace {
 
 /// A bond of the paper's stiffness at a strain, without shear.
 struct OneBond {
-  PairProperties properties;
-  PairHistory history = {};
+  dem_core::PairProperties properties;
+  dem_core::PairHistory history = {};
   double memory[4] = {0.0, 0.0, 0.0, 0.0};
   OneBond() { properties.kn = 5760.0, properties.kt = 325.0, properties.break_limit = 1.5e-10; }
-  BondMoment at(double strain) {
+  dem_core::BondMoment at(double strain) {
     return {strain * 16e-6, 0.0, 16e-6, 1e-3, Vec3(0.0, 0.0, 1.0), properties, history, memory};
   }
 };
@@ -38,7 +38,7 @@ TEST(PolymerNonlinearity, SoftensChainsAsTheirLawSays) {
   Sample sample = with("polymer_nonlinearity", 2.0, 0.02);
   sample.compression.relax_to = 1e-6;
   const auto done = run(chains(), sample);
-  const Simulation s = actual_simulation(actual_specimen(chains(), sample, 1));
+  const dem_core::Simulation s = actual_simulation(actual_specimen(chains(), sample, 1));
   const double height = s.bonds[0].height, section = s.section;
   // Bonds of a chain carry the same: u_total = 2 F/57600 + 5 u with F = kn u (1 − θ u/(2 l)). Each increment
   // ends with the stiffness of its own first equilibrium, so the law is met up to the last increment's share.

@@ -9,11 +9,11 @@ TEST(PolymerViscoelasticity, AHeldBondRelaxesAsTheStandardLinearSolid) {
   const double theta = 0.4;
   ActualSpecimen specimen;
   const Sample& sample = specimen.believed = with("polymer_viscoelasticity", theta);
-  const double time = 0.01 * sample.specimen.height / platen_speed(sample);
+  const double time = 0.01 * sample.specimen.height / dem_core::platen_speed(sample);
   const auto change = find_effect("polymer_viscoelasticity", "test").evolution(specimen, theta);
-  PairProperties bond;
+  dem_core::PairProperties bond;
   bond.kn = 5760.0, bond.kt = 325.0;
-  PairHistory history = {};
+  dem_core::PairHistory history = {};
   history.bond_slip = {2e-6, 0.0, 0.0};
   double memory[4] = {0.0, 0.0, 0.0, 0.0};
   const double gap = 3e-6, dt = 0.1 * time;
@@ -42,7 +42,7 @@ TEST(PolymerViscoelasticity, AHeldChainLosesWhatItsBondsRelax) {
   const double theta = 0.5;
   const auto done = run(chains(), held(theta));
   // Long after, a bond has (1 − θ) of its stiffness; the glass on the platens keeps its own.
-  const Simulation s = build_simulation(chains(), held(theta));
+  const dem_core::Simulation s = dem_core::build_simulation(chains(), held(theta));
   const double travel = done.result["final_strain"].get<double>() * s.initial_height;
   const double relaxed = 9.0 * chain_stiffness((1.0 - theta) * 5760.0) * travel / s.section;
   EXPECT_NEAR(done.rows.back().stress, relaxed, 0.01 * relaxed);

@@ -20,11 +20,11 @@ TEST(PositionError, MovesCentresByTheNoiseStated) {
 
 TEST(PositionError, OverlapsThatItMakesDoNotPush) {
   const Sample sample = with("position_error", 2.0);
-  const Simulation s = actual_simulation(actual_specimen(disordered(4, 4), sample, 1));
+  const dem_core::Simulation s = actual_simulation(actual_specimen(disordered(4, 4), sample, 1));
   double deepest = 0.0;
   for (const auto& pair : s.pairs) deepest = std::min(deepest, gap(s, pair));
   EXPECT_LT(deepest, -1e-6);
-  EXPECT_LT(energies(s).elastic, 1e-30);  // rounding; a bond at its limit holds 1e-6
+  EXPECT_LT(dem_core::energies(s).elastic, 1e-30);  // rounding; a bond at its limit holds 1e-6
 }
 
 TEST(PositionError, TheMeasurementReadsTheGivenBeads) {

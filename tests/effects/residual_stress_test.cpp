@@ -7,7 +7,7 @@ namespace pendular::effects::test {
 namespace {
 
 TEST(ResidualStress, AFreeBondComesToItsShorterLength) {
-  const Simulation simulation =
+  const dem_core::Simulation simulation =
       actual_simulation(actual_specimen(columns(1, 2, kGap), with("residual_stress", 0.1), 1));
   const double height = simulation.bonds[0].height;
   EXPECT_NEAR(gap(simulation, simulation.pairs[0]), kGap * kBeadDiameter - 0.1 * height, 1e-3 * height);
@@ -16,7 +16,7 @@ TEST(ResidualStress, AFreeBondComesToItsShorterLength) {
 }
 
 TEST(ResidualStress, ABondAcrossTouchingBeadsPressesThemTogether) {
-  const Simulation simulation =
+  const dem_core::Simulation simulation =
       actual_simulation(actual_specimen(columns(1, 2, 0.0), with("residual_stress", 0.1), 1));
   // The law's bond keeps its force in overlap, against k_glass.
   const double height = simulation.bonds[0].height;
@@ -25,9 +25,9 @@ TEST(ResidualStress, ABondAcrossTouchingBeadsPressesThemTogether) {
 
 TEST(ResidualStress, ADisorderedSpecimenIsAtRestUnderItAndStiffer) {
   Sample sample = with("residual_stress", 0.15, 0.02);
-  const Simulation simulation = actual_simulation(actual_specimen(disordered(4, 4), sample, 1));
+  const dem_core::Simulation simulation = actual_simulation(actual_specimen(disordered(4, 4), sample, 1));
   // Over fewer forces than in the settling: the platens touch now, and carry nothing.
-  EXPECT_LE(unbalanced_force(simulation, forces(simulation)), 1.2 * sample.compression.relax_to);
+  EXPECT_LE(dem_core::unbalanced_force(simulation, forces(simulation)), 1.2 * sample.compression.relax_to);
   EXPECT_GT(simulation.work.given, 0.0);
   EXPECT_EQ(simulation.steps, 0);
   const auto stressed = run(disordered(4, 4), sample), plain = run(disordered(4, 4), without(sample));

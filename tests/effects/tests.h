@@ -39,17 +39,17 @@ inline Sample with(const std::string& effect, double theta, double max_strain = 
   return sample;
 }
 
-inline CompressResult run(const Packing& packing, const Sample& sample, std::uint64_t seed = 1) {
+inline dem_core::CompressResult run(const Packing& packing, const Sample& sample, std::uint64_t seed = 1) {
   ScratchFolder folder;
   return compress_with_effects(packing, sample, seed, folder / "run", {});
 }
 
 /// Slope of all rows through the origin, Pa.
-inline double secant(const CompressResult& run) {
+inline double secant(const dem_core::CompressResult& run) {
   return run.rows.back().stress / run.rows.back().strain;
 }
 
-inline double peak(const CompressResult& run) {
+inline double peak(const dem_core::CompressResult& run) {
   double highest = 0.0;
   for (const auto& row : run.rows) highest = std::max(highest, row.stress);
   return highest;
@@ -57,10 +57,10 @@ inline double peak(const CompressResult& run) {
 
 /// Modulus of the specimen as it touches both platens, without a run, Pa.
 inline double modulus(const Packing& packing, const Sample& sample, double strain = 0.02) {
-  return linear_response(actual_simulation(actual_specimen(packing, sample, 1)), {strain}).modulus;
+  return dem_core::linear_response(actual_simulation(actual_specimen(packing, sample, 1)), {strain}).modulus;
 }
 
-inline double work_error(const CompressResult& run) {
+inline double work_error(const dem_core::CompressResult& run) {
   return run.result["work_balance"]["relative_error"].get<double>();
 }
 

@@ -9,7 +9,7 @@ constexpr char kIdentity[] = "of this work";
 const std::string& head() {
   static const std::string text = [] {
     const pendular::fs::path good = pendular::fuzz::folder() / "good";
-    pendular::write_checkpoint(good, {}, kIdentity);
+    pendular::dem_core::write_checkpoint(good, {}, kIdentity);
     const std::string whole = pendular::read_text(good);
     return whole.substr(0, whole.find(kIdentity) + sizeof kIdentity);
   }();
@@ -25,5 +25,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string bytes(fuzz::text_of(data + 1, size - 1));
   if (data[0] % 8 != 0) bytes = head() + sha256(bytes) + "\n" + bytes;
   const fs::path path = fuzz::put("checkpoint", bytes);
-  return fuzz::read_quietly([&] { read_checkpoint(path, kIdentity); });
+  return fuzz::read_quietly([&] { dem_core::read_checkpoint(path, kIdentity); });
 }

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/random.h"
 
-namespace pendular {
+namespace pendular::micromechanics {
 namespace {
 
 using Four = std::array<double, 4>;
@@ -298,4 +298,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::micromechanics

@@ -10,7 +10,7 @@
 #include "base/random.h"
 #include "micromechanics/stiffness_table.h"
 
-namespace pendular {
+namespace pendular::micromechanics {
 namespace {
 
 /// Bridges as a packing of sample A has them: gaps from slight overlap to the cut-off, necks and beads
@@ -154,4 +154,4 @@ TEST(Stiffness, DoesNotDependOnTheNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::micromechanics

@@ -60,8 +60,8 @@ Packing bonded(Packing packing, const Sample& sample) {
 }
 
 /// Every steps_per_row steps, the mean of both platens' forces over the section.
-Curve compress_here(Simulation& simulation, int steps_per_row) {
-  Stepper stepper(simulation);
+Curve compress_here(dem_core::Simulation& simulation, int steps_per_row) {
+  dem_core::Stepper stepper(simulation);
   Curve curve;
   for (int row = 0; row < kRows; ++row) {
     for (int k = 0; k < steps_per_row; ++k) stepper.step();
@@ -72,8 +72,8 @@ Curve compress_here(Simulation& simulation, int steps_per_row) {
   return curve;
 }
 
-void write_for_yade(const std::filesystem::path& folder, const Packing& packing, const Simulation& simulation,
-                    const Sample& sample, int steps_per_row) {
+void write_for_yade(const std::filesystem::path& folder, const Packing& packing,
+                    const dem_core::Simulation& simulation, const Sample& sample, int steps_per_row) {
   write_exchange(folder / "beads.txt", ExchangeFormat::yade, packing, sample.beads.density);
   std::string bonds;
   for (const auto& bridge : packing.bridges) bonds += fmt::format("{} {}\n", bridge.i, bridge.j);
@@ -88,7 +88,7 @@ void write_for_yade(const std::filesystem::path& folder, const Packing& packing,
                                  {"dashpot_n_s_per_m", law.damping},
                                  {"local_damping", 0.0},
                                  {"time_step_s", simulation.dt},
-                                 {"speed_m_per_s", platen_speed(sample)},
+                                 {"speed_m_per_s", dem_core::platen_speed(sample)},
                                  {"steps", kRows * steps_per_row},
                                  {"steps_per_row", steps_per_row},
                                  {"compare", true},
@@ -131,7 +131,7 @@ double largest_difference(const Curve& a, const Curve& b) {
   return largest / a.stress.back();
 }
 
-int touching_pairs(const Simulation& simulation) {
+int touching_pairs(const dem_core::Simulation& simulation) {
   int touching = 0;
   for (const auto& pair : simulation.pairs) touching += gap(simulation, pair) <= pair.properties.touch;
   return touching;
@@ -147,12 +147,12 @@ class Yade : public ::testing::Test {
   /// Both curves to `strain`, pendular's first, and the specimen at the end.
   struct Comparison {
     Curve here, yade;
-    Simulation end;
+    dem_core::Simulation end;
   };
   Comparison compare(const Packing& packing, const Sample& sample, double strain) {
     Comparison out;
-    out.end = build_simulation(packing, sample);
-    const double steps = strain * out.end.initial_height / (platen_speed(sample) * out.end.dt);
+    out.end = dem_core::build_simulation(packing, sample);
+    const double steps = strain * out.end.initial_height / (dem_core::platen_speed(sample) * out.end.dt);
     const int steps_per_row = static_cast<int>(std::lround(steps / kRows));
     write_for_yade(scratch_.path(), packing, out.end, sample, steps_per_row);
     out.here = compress_here(out.end, steps_per_row);

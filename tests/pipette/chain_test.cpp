@@ -131,7 +131,8 @@ struct Case {
 Case run_case(std::uint64_t index) {
   const auto draw = [&](std::uint64_t n) { return random_uniform(2021, 16 * index + n); };
   const double d = 1e-6 * (50.0 + 220.0 * draw(0)), gap = 1e-6 * (1.0 + draw(1));
-  const BridgeStiffness bridge = bridge_stiffness({d, gap, 365e-6, 365e-6}, {50e3, 0.49});
+  const micromechanics::BridgeStiffness bridge =
+      micromechanics::bridge_stiffness({d, gap, 365e-6, 365e-6}, {50e3, 0.49});
   Phantom phantom;
   phantom.direction = index % 2 ? Direction::tangential : Direction::normal;
   phantom.bridge_stiffness = index % 2 ? bridge.tangential : bridge.normal;

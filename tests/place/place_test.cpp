@@ -14,9 +14,9 @@ namespace {
 using namespace pendular::test;
 
 /// Springs in series between the platens, as many as there are gaps between beads and platens.
-SpringNetwork chain(const std::vector<double>& stiffness) {
+dem_core::SpringNetwork chain(const std::vector<double>& stiffness) {
   const int beads = static_cast<int>(stiffness.size()) - 1;
-  std::vector<NetworkSpring> springs;
+  std::vector<dem_core::NetworkSpring> springs;
   for (int k = 0; k + 1 < beads; ++k)
     springs.push_back(
         {k + 1, k, Vec3::UnitZ(), 1.0, 1.0, stiffness[static_cast<std::size_t>(k) + 1], 0.1, 0, 0, 0});
@@ -29,8 +29,8 @@ SpringNetwork chain(const std::vector<double>& stiffness) {
 TEST(Place, ChainWithAWeakSpringIsFoundWithTheRightMagnitude) {
   constexpr std::size_t kSprings = 12, kWeak = 5;
   constexpr double kWeaker = 0.9, kTravel = 1.0, kNoise = 1e-4;
-  const SpringNetwork network = chain(std::vector<double>(kSprings, 1.0));
-  NodeVector x = NodeVector::Zero(6 * network.nodes());
+  const dem_core::SpringNetwork network = chain(std::vector<double>(kSprings, 1.0));
+  dem_core::NodeVector x = dem_core::NodeVector::Zero(6 * network.nodes());
   x[6 * network.bottom() + 2] = kTravel;
   solve(network, network.pushes(), 1e-12, x);
   const double whole = kSprings - 1.0 + 1.0 / kWeaker;
@@ -48,7 +48,7 @@ TEST(Place, ChainWithAWeakSpringIsFoundWithTheRightMagnitude) {
   for (std::size_t k = 0; k < kSprings; ++k) {
     std::vector<double> one(kSprings, 0.0);
     one[place_of_spring(k)] = 1.0;
-    const NodeVector change = stiffness_sensitivity(network, x, one, 1e-12);
+    const dem_core::NodeVector change = dem_core::stiffness_sensitivity(network, x, one, 1e-12);
     for (int bead = 0; bead < network.free_nodes(); ++bead)
       sensitivity.block<3, 1>(3 * bead, static_cast<Eigen::Index>(k)) = change.segment<3>(6 * bead);
   }
@@ -67,7 +67,7 @@ TEST(Place, ChainWithAWeakSpringIsFoundWithTheRightMagnitude) {
 }
 
 TEST(Place, NothingPlantedShowsNothing) {
-  const Simulation specimen = scanned_specimen();
+  const dem_core::Simulation specimen = scanned_specimen();
   int alarms = 0;
   for (std::uint64_t seed : {1, 2, 3}) {
     const Place place = place_of(scan_of(
@@ -80,7 +80,7 @@ TEST(Place, NothingPlantedShowsNothing) {
 }
 
 TEST(Place, WeakLayerIsFoundAndSofter) {
-  const Simulation specimen = scanned_specimen();
+  const dem_core::Simulation specimen = scanned_specimen();
   const double middle = 0.5 * (specimen.bottom.z + specimen.top.z), half = specimen.beads.mean_diameter();
   const auto of_layer = [&](const Vec3& p) { return std::fabs(p.z() - middle) < half; };
   const Place place = place_of(scan_of(

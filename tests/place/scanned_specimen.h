@@ -11,27 +11,28 @@ namespace pendular::test {
 
 constexpr double kScanStrain = 0.01, kScanSigma = 0.14e-6;
 
-inline Simulation scanned_specimen() {
-  return build_simulation(disordered(5, 5), sample_a());
+inline dem_core::Simulation scanned_specimen() {
+  return dem_core::build_simulation(disordered(5, 5), sample_a());
 }
 
 /// The specimen's displacements as a linear network with the contacts that are closed at rest; `softer`: the
 /// factor on the springs about a place.
-inline std::vector<Vec3> network_motion(const Simulation& specimen,
+inline std::vector<Vec3> network_motion(const dem_core::Simulation& specimen,
                                         const std::function<double(const Vec3&)>& softer) {
-  const auto joints = joints_of(specimen, kScanStrain * specimen.initial_height);
-  NodeVector x = NodeVector::Zero(6 * static_cast<Eigen::Index>(specimen.beads.size() + 2));
+  const auto joints = dem_core::joints_of(specimen, kScanStrain * specimen.initial_height);
+  dem_core::NodeVector x =
+      dem_core::NodeVector::Zero(6 * static_cast<Eigen::Index>(specimen.beads.size() + 2));
   for (std::size_t k = 0; k < specimen.beads.size(); ++k)
     x[6 * static_cast<Eigen::Index>(k) + 2] = kScanStrain * (specimen.top.z - specimen.beads.position[k].z());
   x[6 * static_cast<Eigen::Index>(specimen.beads.size()) + 2] = kScanStrain * specimen.initial_height;
-  const SpringNetwork network =
-      network_of(specimen, joints, closures_at(nodes_of(specimen), joints, x), true);
+  const dem_core::SpringNetwork network = dem_core::network_of(
+      specimen, joints, dem_core::closures_at(dem_core::nodes_of(specimen), joints, x), true);
   auto springs = network.springs();
   for (auto& spring : springs) {
     const double factor = softer(specimen.beads.position[static_cast<std::size_t>(spring.i)]);
     spring.normal *= factor, spring.tangential *= factor, spring.push *= factor;
   }
-  const SpringNetwork changed = network.with(springs);
+  const dem_core::SpringNetwork changed = network.with(springs);
   solve(changed, changed.pushes(), 1e-8, x);
   std::vector<Vec3> moved;
   for (std::size_t k = 0; k < specimen.beads.size(); ++k)
@@ -46,14 +47,14 @@ inline std::vector<Vec3> with_noise(std::vector<Vec3> field, double sigma, std::
   return field;
 }
 
-inline std::vector<std::int64_t> ids_of(const Simulation& specimen) {
+inline std::vector<std::int64_t> ids_of(const dem_core::Simulation& specimen) {
   std::vector<std::int64_t> ids;
   for (std::size_t k = 0; k < specimen.beads.size(); ++k) ids.push_back(static_cast<std::int64_t>(k) + 1);
   return ids;
 }
 
 /// Ten members that scatter by 0.05 µm, and a measurement with noise of its own.
-inline diagnosis::ScannedMotion scan_of(const Simulation& specimen,
+inline diagnosis::ScannedMotion scan_of(const dem_core::Simulation& specimen,
                                         const std::function<double(const Vec3&)>& softer,
                                         std::uint64_t seed) {
   diagnosis::ScannedMotion scan{kScanStrain, ids_of(specimen), specimen.beads.position, {}, kScanSigma, {}};

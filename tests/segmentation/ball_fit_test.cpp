@@ -5,7 +5,7 @@
 #include "balls.h"
 #include "segmentation/fit/ball_profile.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 using test::ball_volume;
@@ -130,4 +130,4 @@ TEST(BallFit, NeighbourIsKnown) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -19,7 +19,7 @@
 #include "segmentation/qa/qa.h"
 #include "segmentation/segment.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 /// A packing in which three of ten near pairs have no bridge.
@@ -31,7 +31,7 @@ Packing bridged_packing() {
   packing.bridges = candidate_bridges(packing.beads, sample.bridges.cutoff * mean_diameter(packing.beads));
   for (std::size_t k = 0; k < packing.bridges.size(); ++k)
     if (random_uniform(9, k) < 0.3) packing.bridges[k].state = BridgeState::none;
-  draw_neck_diameters(packing, sample, 1);
+  phantom::draw_neck_diameters(packing, sample, 1);
   return packing;
 }
 
@@ -43,7 +43,7 @@ const Packing& truth() {
 Volume phantom(double contrast, double noise) {
   Sample::Phantom look;
   look.voxel = 5e-6, look.noise = noise, look.correlated_noise = 0.0, look.polymer_contrast = contrast;
-  return make_phantom(truth(), look, 2);
+  return phantom::make_phantom(truth(), look, 2);
 }
 
 Segmentation measured(double contrast, double noise, double false_discoveries = 0.05) {
@@ -263,4 +263,4 @@ TEST(NeckStates, KeepTheExpectedShareOfWrongOnes) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::segmentation

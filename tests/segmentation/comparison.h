@@ -59,7 +59,7 @@ inline const Packing& small_packing() {
     const Sample sample = small_sample();
     Packing packing = generate_packing(sample, 1);
     packing.bridges = candidate_bridges(packing.beads, sample.bridges.cutoff * mean_diameter(packing.beads));
-    draw_neck_diameters(packing, sample, 1);
+    phantom::draw_neck_diameters(packing, sample, 1);
     return packing;
   }();
   return made;

@@ -15,7 +15,7 @@
 #include "scratch.h"
 #include "volume/volume.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 using test::error_of;
@@ -129,4 +129,4 @@ TEST(Dicom, NoDamageToASliceCrashesItsReader) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::segmentation

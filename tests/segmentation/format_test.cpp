@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "scratch.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 using test::ScratchFolder;
@@ -59,4 +59,4 @@ TEST(VolumeFormat, EachIsNamedInTheMessageAboutAnUnknownOne) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -7,7 +7,7 @@
 #include "read_error.h"
 #include "scratch.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 using test::error_of;
@@ -241,4 +241,4 @@ TEST(Hdf5, DamagedFilesEndInOneLine) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::segmentation

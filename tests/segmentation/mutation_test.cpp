@@ -3,7 +3,7 @@
 #include "scratch.h"
 #include "volume/volume.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 using test::read_mutations;
@@ -39,4 +39,4 @@ TEST(Mutation, NoDamageToAVolumeCrashesItsReader) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -7,7 +7,7 @@
 #include "phantom/phantom.h"
 #include "segmentation/segment.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 constexpr double voxel = 6e-6;
@@ -18,7 +18,7 @@ const Volume& whole() {
     sample.phantom.voxel = voxel;
     sample.phantom.noise = 0.1;
     sample.phantom.correlated_noise = 0.0;
-    return make_phantom(test::small_packing(), sample.phantom, 1);
+    return phantom::make_phantom(test::small_packing(), sample.phantom, 1);
   }();
   return made;
 }
@@ -190,4 +190,4 @@ TEST(OddVolumes, PoresAreNoBeadsAndBrokenBeadsAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 constexpr double voxel = 5e-6;
@@ -56,7 +56,7 @@ struct Scene {
 /// Grey values above air over the air–glass edge, with voxel coordinates from the volume's middle.
 struct Field {
   Field(const Packing& packing, const Sample::Phantom& settings, std::uint64_t seed = 1)
-      : volume(make_phantom(packing, settings, seed)) {
+      : volume(phantom::make_phantom(packing, settings, seed)) {
     const double full = settings.bits == 8.0 ? 255.0 : 65535.0;
     with_pixels(volume, [&](auto pixels) {
       for (auto grey : pixels)
@@ -323,7 +323,7 @@ TEST(Phantom, EightBitsAreClippedToTheirScale) {
   settings.air_grey = 0.0;
   settings.glass_grey = 1.0;
   settings.noise = 0.2;
-  const Volume volume = make_phantom(Scene(41).bead({0, 0, 0}, 15).packing, settings, 1);
+  const Volume volume = phantom::make_phantom(Scene(41).bead({0, 0, 0}, 15).packing, settings, 1);
   ASSERT_EQ(pixel_type(volume), "uint8");
   std::array<std::size_t, 256> histogram{};
   for (std::uint8_t grey : std::get<std::vector<std::uint8_t>>(volume.pixels)) ++histogram[grey];
@@ -341,31 +341,31 @@ TEST(Phantom, IsTheSameForAnyNumberOfThreadsAndDiffersBySeed) {
   settings.rings = 0.02;
   settings.margin = 5.0 * voxel;
   set_threads(1);
-  const Volume one = make_phantom(scene.packing, settings, 7);
+  const Volume one = phantom::make_phantom(scene.packing, settings, 7);
   set_threads(2);
-  const Volume two = make_phantom(scene.packing, settings, 7);
+  const Volume two = phantom::make_phantom(scene.packing, settings, 7);
   set_threads(0);
   EXPECT_TRUE(one.pixels == two.pixels);
-  EXPECT_FALSE(one.pixels == make_phantom(scene.packing, settings, 8).pixels);
+  EXPECT_FALSE(one.pixels == phantom::make_phantom(scene.packing, settings, 8).pixels);
 }
 
 TEST(Phantom, VolumesBeyondMemoryAreRefused) {
   auto settings = clean();
   settings.voxel = 1e-9;
   const Packing small = Scene(800).packing;  // 4 mm
-  EXPECT_THROW(make_phantom(small, settings, 1), ComputationFailed);
+  EXPECT_THROW(phantom::make_phantom(small, settings, 1), ComputationFailed);
   settings.voxel = 1e-15;
-  EXPECT_THROW(make_phantom(small, settings, 1), ComputationFailed);
+  EXPECT_THROW(phantom::make_phantom(small, settings, 1), ComputationFailed);
 }
 
 TEST(Phantom, ImpossibleBodiesAreRefused) {
   const auto pair = [] { return Scene(49).bead({-10, 0, 0}, 10).bead({11, 0, 0}, 10); };
-  EXPECT_THROW(make_phantom(pair().neck(20).packing, clean(), 1), BadInput);
-  EXPECT_THROW(make_phantom(pair().neck(-3).packing, clean(), 1), BadInput);
-  EXPECT_THROW(make_phantom(pair().neck(NAN).packing, clean(), 1), BadInput);
-  EXPECT_THROW(make_phantom(Scene(9).bead({0, 0, 0}, 0).packing, clean(), 1), BadInput);
-  EXPECT_THROW(make_phantom(Scene(9).bead({NAN, 0, 0}, 3).packing, clean(), 1), BadInput);
-  EXPECT_THROW(make_phantom(Packing(), clean(), 1), BadInput);
+  EXPECT_THROW(phantom::make_phantom(pair().neck(20).packing, clean(), 1), BadInput);
+  EXPECT_THROW(phantom::make_phantom(pair().neck(-3).packing, clean(), 1), BadInput);
+  EXPECT_THROW(phantom::make_phantom(pair().neck(NAN).packing, clean(), 1), BadInput);
+  EXPECT_THROW(phantom::make_phantom(Scene(9).bead({0, 0, 0}, 0).packing, clean(), 1), BadInput);
+  EXPECT_THROW(phantom::make_phantom(Scene(9).bead({NAN, 0, 0}, 3).packing, clean(), 1), BadInput);
+  EXPECT_THROW(phantom::make_phantom(Packing(), clean(), 1), BadInput);
 }
 
 TEST(NeckDiameters, AreDrawnFromTheTruncatedNormal) {
@@ -375,7 +375,7 @@ TEST(NeckDiameters, AreDrawnFromTheTruncatedNormal) {
   Packing packing = Scene(99).bead({-20, 0, 0}, 20).bead({20, 0, 0}, 20).packing;
   packing.bridges.resize(20000);
   for (auto& bridge : packing.bridges) bridge.j = 1;
-  draw_neck_diameters(packing, sample, 3);
+  phantom::draw_neck_diameters(packing, sample, 3);
   double sum = 0.0;
   for (const auto& bridge : packing.bridges) {
     ASSERT_EQ(bridge.state, BridgeState::bridge);
@@ -395,7 +395,7 @@ TEST(NeckDiameters, KeepWhatIsKnown) {
   packing.bridges[0].diameter = 33e-6;
   packing.bridges[1].state = BridgeState::none;
   packing.bridges[2].state = BridgeState::undetermined;
-  draw_neck_diameters(packing, Sample(), 3);
+  phantom::draw_neck_diameters(packing, Sample(), 3);
   EXPECT_EQ(packing.bridges[0].diameter, 33e-6);
   EXPECT_EQ(packing.bridges[0].state, BridgeState::bridge);
   EXPECT_EQ(packing.bridges[1].state, BridgeState::none);
@@ -404,4 +404,4 @@ TEST(NeckDiameters, KeepWhatIsKnown) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -6,7 +6,7 @@
 
 #include "balls.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 constexpr std::size_t wide = 160, high = 80;
@@ -81,4 +81,4 @@ TEST(Rings, AreNotSeenInNoise) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::segmentation

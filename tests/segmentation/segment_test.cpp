@@ -18,7 +18,7 @@
 #include "segmentation/qa/qa.h"
 #include "volume/resample.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 /// Voxels of 1 um.
@@ -54,7 +54,7 @@ TEST_P(OnPhantom, FindsEveryBead) {
   sample.phantom.beam_hardening = c.beam_hardening;
   sample.phantom.rings = c.rings;
   const Packing& packing = test::small_packing();
-  const Volume volume = make_phantom(packing, sample.phantom, 1);
+  const Volume volume = phantom::make_phantom(packing, sample.phantom, 1);
   const Segmentation found = segment(volume);
   const test::Comparison result = test::compare(packing.beads, found.beads, volume.spacing);
   SCOPED_TRACE(fmt::format("centre rms {:.4f}, diameter bias {:.4f} voxels, pull {:.2f}", result.centre_rms,
@@ -97,7 +97,7 @@ TEST(Segment, FindsEveryBeadWhereDiametersVaryByAFifth) {
                        [](const Bead& a, const Bead& b) { return a.diameter < b.diameter; });
   ASSERT_LT(smallest->diameter, 0.6 * sample.beads.diameter);
   sample.phantom.noise = 0.1;
-  const Volume volume = make_phantom(packing, sample.phantom, 1);
+  const Volume volume = phantom::make_phantom(packing, sample.phantom, 1);
   const Segmentation found = segment(volume);
   const test::Comparison result = test::compare(packing.beads, found.beads, volume.spacing);
   EXPECT_EQ(result.missed, 0);
@@ -310,4 +310,4 @@ TEST(Segment, AirVoidsInCement) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -9,7 +9,7 @@
 #include "read_error.h"
 #include "scratch.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 using test::error_of;
@@ -343,4 +343,4 @@ TEST(Volume, BadInputIsOneLine) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -8,7 +8,7 @@
 #include "read_error.h"
 #include "scratch.h"
 
-namespace pendular {
+namespace pendular::segmentation {
 namespace {
 
 using nlohmann::json;
@@ -206,4 +206,4 @@ TEST(Zarr, AnImageCannotLeadOutOfItsFolder) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::segmentation

@@ -36,8 +36,8 @@ TEST(Execute, ARunIsTheOneThatCompressMakes) {
   packing.bridges =
       candidate_bridges(packing.beads, request.sample.bridges.cutoff * request.sample.beads.diameter);
   write_packing(folder / "p.vtp", packing);
-  const auto direct = compress(realise(read_packing(folder / "p.vtp"), request.sample, 4), request.sample,
-                               folder / "run", {});
+  const auto direct = dem_core::compress(dem_core::realise(read_packing(folder / "p.vtp"), request.sample, 4),
+                                         request.sample, folder / "run", {});
 
   Store store(folder / "store");
   const auto outcomes = execute(store, std::vector{request}, with_program());

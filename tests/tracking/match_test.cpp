@@ -5,7 +5,7 @@
 #include "tracking/registration.h"
 #include "two_scans.h"
 
-namespace pendular {
+namespace pendular::tracking {
 namespace {
 
 using namespace test;
@@ -42,4 +42,4 @@ TEST(Match, ReachIsMeasuredFromTheEvenMotion) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::tracking

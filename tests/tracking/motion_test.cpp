@@ -7,7 +7,7 @@
 
 #include "two_scans.h"
 
-namespace pendular {
+namespace pendular::tracking {
 namespace {
 
 using namespace test;
@@ -108,4 +108,4 @@ TEST(Motion, IsStillWhereNothingMovedBeyondErrors) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::tracking

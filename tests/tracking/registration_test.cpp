@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "two_scans.h"
 
-namespace pendular {
+namespace pendular::tracking {
 namespace {
 
 using namespace test;
@@ -206,4 +206,4 @@ TEST(Registration, OfTenBeadsIsFoundAndOfTenOthersRefused) {
 }
 
 }  // namespace
-}  // namespace pendular
+}  // namespace pendular::tracking

@@ -112,7 +112,7 @@ struct Outcome {
   double right = 0.0, wrong = 0.0;
 };
 
-inline Outcome outcome_of(const SecondScan& scan, const std::vector<BeadMatch>& matches) {
+inline Outcome outcome_of(const SecondScan& scan, const std::vector<tracking::BeadMatch>& matches) {
   const double both = static_cast<double>(
       std::count_if(scan.source.begin(), scan.source.end(), [](int k) { return k >= 0; }));
   Outcome outcome;

@@ -54,11 +54,12 @@ TEST(BridgeStiffness, BridgesFromTheSpecimenHaveItsGaps) {
     EXPECT_EQ(simulated(cut, sample).at(name), simulated(made, sample).at(name));
   sample.effects["bridge_gap_spread"] = 3.0;
   // The mean logarithm over an exponential excess of 3 um, here over 4,000 drawn bridges.
-  std::vector<BridgeBody> bodies;
+  std::vector<micromechanics::BridgeBody> bodies;
   for (std::uint64_t k = 0; k < 4000; ++k)
     bodies.push_back({74e-6, 2e-6 - 3e-6 * std::log(1.0 - random_uniform(3, k)), 200.9e-6, 200.9e-6});
   double mean = 0.0;
-  for (const auto& bond : bridge_stiffnesses(bodies, polymer_of(sample)).bonds)
+  for (const auto& bond :
+       micromechanics::bridge_stiffnesses(bodies, micromechanics::polymer_of(sample)).bonds)
     mean += std::log(bond.normal) / 4000.0;
   EXPECT_NEAR(std::log(simulated(cut, sample).at("kn_n_per_m")[0]), mean, 0.03);
   EXPECT_EQ(simulated(made, sample).at("kn_n_per_m"), simulated(made, Sample{}).at("kn_n_per_m"));
