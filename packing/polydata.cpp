@@ -1,12 +1,11 @@
 #include "packing/polydata.h"
 
-#include <dlfcn.h>
-
 #include <cstring>
 #include <fstream>
 #include <limits>
 
 #include "base/error.h"
+#include "base/module.h"
 #include "packing/polydata_files.h"
 #include "packing/polydata_xml.h"
 
@@ -14,12 +13,8 @@ namespace pendular {
 namespace {
 
 const PolydataFiles& polydata_files() {
-  static const auto* files = [] {
-    void* library = ::dlopen(PENDULAR_POLYDATA, RTLD_NOW | RTLD_LOCAL);
-    void* found = library == nullptr ? nullptr : ::dlsym(library, "pendular_polydata_files");
-    if (found == nullptr) throw ComputationFailed(fmt::format("VTK files: {}", ::dlerror()));
-    return static_cast<const PolydataFiles*>(found);
-  }();
+  static const auto* files =
+      static_cast<const PolydataFiles*>(module_symbol(PENDULAR_POLYDATA, "pendular_polydata_files"));
   return *files;
 }
 

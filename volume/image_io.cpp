@@ -46,6 +46,31 @@ void read_pixels(itk::ImageIOBase& io, const fs::path& path, char* target) {
   guarded(path, [&] { io.Read(target); });
 }
 
+void write_png(const fs::path& path, std::size_t width, std::size_t height,
+               std::span<const std::uint8_t> pixels) {
+  const auto io = itk::PNGImageIO::New();
+  io->SetNumberOfDimensions(2);
+  itk::ImageIORegion region(2);
+  for (unsigned axis = 0; axis < 2; ++axis) {
+    io->SetDimensions(axis, axis == 0 ? width : height);
+    region.SetSize(axis, axis == 0 ? width : height);
+  }
+  io->SetIORegion(region);
+  io->SetPixelType(itk::IOPixelEnum::RGB);
+  io->SetNumberOfComponents(3);
+  io->SetComponentType(itk::IOComponentEnum::UCHAR);
+  write_atomically(path, [&](const fs::path& temporary) {
+    io->SetFileName(temporary.string());
+    try {
+      const SilentStandardError silent;
+      io->Write(pixels.data());
+    } catch (const itk::ExceptionObject& error) {
+      throw ComputationFailed(
+          fmt::format("{}: cannot be written: {}", path.string(), first_line(error.GetDescription())));
+    }
+  });
+}
+
 Volume::Pixels pixels_of(itk::IOComponentEnum type, const fs::path& path) {
   switch (type) {
     case itk::IOComponentEnum::UCHAR:

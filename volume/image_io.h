@@ -36,6 +36,11 @@ void read_header(itk::ImageIOBase& io, const fs::path& path);
 /// All voxels of a file, its header having been read.
 void read_pixels(itk::ImageIOBase& io, const fs::path& path, char* target);
 
+/// A picture of width × height pixels of red, green, blue, rows from the top, as a PNG: whole or not at all.
+/// ComputationFailed where it cannot be written.
+void write_png(const fs::path& path, std::size_t width, std::size_t height,
+               std::span<const std::uint8_t> pixels);
+
 /// No pixels yet, of that type. BadInput for any other.
 Volume::Pixels pixels_of(itk::IOComponentEnum type, const fs::path& path);
 

@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 #include <set>
 
 #include "base/error.h"
 #include "base/own_process.h"
+#include "pipette/codecs.h"
 
 namespace pendular::pipette {
 namespace {
@@ -88,7 +87,7 @@ GreyImage to_grey(const cv::Mat& picture, const std::string& name) {
 struct FrameSource::State {
   fs::path path, origin;
   std::vector<Numbered> images;  ///< empty for a video
-  cv::VideoCapture video;
+  std::unique_ptr<VideoReader> video;
   std::size_t given = 0;
   int width = 0, height = 0;
 };
@@ -107,7 +106,8 @@ FrameSource::FrameSource(const fs::path& path) : state_(std::make_unique<State>(
     state_->images = numbered_images(path, "*", path.string());
     return;
   }
-  if (!state_->video.open(path.string(), cv::CAP_FFMPEG))
+  state_->video = codecs().open(path.string());
+  if (!state_->video)
     bad_input("{}: cannot be read as a video, expected one, or a folder of numbered images", path.string());
 }
 
@@ -120,7 +120,7 @@ std::optional<Frame> FrameSource::next() {
   cv::Mat picture;
   const SilentStandardError silent;
   if (s.images.empty()) {
-    if (!s.video.read(picture) || picture.empty()) return std::nullopt;
+    if (!s.video->read(picture)) return std::nullopt;
     frame.number = static_cast<long long>(s.given);
     frame.name = fmt::format("{}: frame {}", s.path.string(), s.given);
   } else {
@@ -128,10 +128,7 @@ std::optional<Frame> FrameSource::next() {
     const Numbered& image = s.images[s.given];
     frame.number = image.number;
     frame.name = image.path.string();
-    try {
-      picture = cv::imread(image.path.string(), cv::IMREAD_UNCHANGED);
-    } catch (const cv::Exception&) {
-    }
+    picture = codecs().read(frame.name);
     if (picture.empty()) bad_input("{}: cannot be read as an image", frame.name);
   }
   if (s.given++ == 0) {
@@ -147,7 +144,7 @@ std::optional<Frame> FrameSource::next() {
 
 std::size_t FrameSource::expected() const {
   if (!state_->images.empty()) return state_->images.size();
-  return static_cast<std::size_t>(std::max(0.0, state_->video.get(cv::CAP_PROP_FRAME_COUNT)));
+  return static_cast<std::size_t>(std::max(0.0, state_->video->frames()));
 }
 
 std::vector<fs::path> FrameSource::files() const {

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
+#include "pipette/codecs.h"
 
 namespace pendular::pipette {
 namespace {
@@ -99,13 +98,6 @@ void draw_frame(Sheet& sheet, const Measurement& m, std::size_t index) {
                          1e6 * m.curve.extension[index], 1e3 * m.curve.force[index], frame.score));
 }
 
-void write_picture(const fs::path& path, const cv::Mat& picture) {
-  write_atomically(path, [&](const fs::path& temporary) {
-    if (!cv::imwrite(temporary.string(), picture))
-      throw ComputationFailed(fmt::format("{}: cannot be written", path.string()));
-  });
-}
-
 }  // namespace
 
 void write_check_pictures(const fs::path& folder, const fs::path& frames, const Measurement& m) {
@@ -141,19 +133,18 @@ void write_check_pictures(const fs::path& folder, const fs::path& frames, const 
 void write_film(const fs::path& film, const fs::path& frames, const Measurement& m) {
   write_atomically(film, [&](const fs::path& temporary) {
     FrameSource source(frames);
-    cv::VideoWriter writer;
+    std::unique_ptr<VideoWriter> writer;
     Progress progress("film", static_cast<double>(m.frames.size()));
     for (std::size_t k = 0; auto frame = source.next(); ++k) {
       stop_if_interrupted();
       Sheet sheet(frame->image);
       draw_frame(sheet, m, k);
       const cv::Size even(sheet.picture().cols / 2 * 2, sheet.picture().rows / 2 * 2);
-      if (k == 0 && !writer.open(temporary.string(), cv::CAP_FFMPEG,
-                                 film.extension() == ".avi" ? cv::VideoWriter::fourcc('M', 'J', 'P', 'G')
-                                                            : cv::VideoWriter::fourcc('m', 'p', '4', 'v'),
-                                 std::clamp(m.calibration.frame_rate, 1.0, 60.0), even))
+      if (k == 0)
+        writer = codecs().create(temporary.string(), std::clamp(m.calibration.frame_rate, 1.0, 60.0), even);
+      if (!writer)
         throw ComputationFailed(fmt::format("{}: no encoder for this kind of video", film.string()));
-      writer.write(sheet.picture()(cv::Rect({0, 0}, even)));
+      writer->write(sheet.picture()(cv::Rect({0, 0}, even)));
       progress.update(static_cast<double>(k + 1));
     }
   });

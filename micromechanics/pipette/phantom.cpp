@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "base/error.h"
 #include "base/random.h"
+#include "pipette/codecs.h"
 
 namespace pendular::pipette {
 namespace {
@@ -211,10 +211,7 @@ void write_phantom(const fs::path& folder, const Phantom& phantom) {
           picture.at<std::uint16_t>(y, x) = static_cast<std::uint16_t>(std::lround(65535.0 * image.at(x, y)));
         else
           picture.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(std::lround(255.0 * image.at(x, y)));
-    write_atomically(folder / fmt::format("frame_{:04d}.png", frame), [&](const fs::path& path) {
-      if (!cv::imwrite(path.string(), picture))
-        throw ComputationFailed(path.string() + ": cannot be written");
-    });
+    write_picture(folder / fmt::format("frame_{:04d}.png", frame), picture);
   }
 }
 

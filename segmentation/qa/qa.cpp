@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
 #include "segmentation/fit/ball_profile.h"
 #include "segmentation/qa/qa_contacts.h"
 #include "segmentation/qa/qa_radii.h"
+#include "volume/image_io.h"
 
 namespace pendular::segmentation {
 namespace {
@@ -76,10 +76,10 @@ const cv::Scalar green(60, 220, 60), orange(0, 140, 255), blue(255, 150, 60), da
     pale(225, 225, 225);
 
 void write_png(const fs::path& path, const cv::Mat& image) {
-  write_atomically(path, [&](const fs::path& temporary) {
-    if (!cv::imwrite(temporary.string(), image))
-      throw ComputationFailed(fmt::format("{}: cannot be written", path.string()));
-  });
+  cv::Mat rgb;
+  cv::cvtColor(image, rgb, image.channels() == 1 ? cv::COLOR_GRAY2RGB : cv::COLOR_BGR2RGB);
+  pendular::write_png(path, static_cast<std::size_t>(rgb.cols), static_cast<std::size_t>(rgb.rows),
+                      {rgb.data, rgb.total() * 3});
 }
 
 void draw_specimen(Drawing& drawing, const Volume& volume, const Plane& plane, const Specimen& specimen) {

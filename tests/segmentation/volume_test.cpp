@@ -6,6 +6,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "base/own_process.h"
 #include "read_error.h"
 #include "scratch.h"
 
@@ -122,7 +123,8 @@ TEST(Volume, AFileCutShortWhileInUseEndsTheProgramWithOneLine) {
   write_volume(folder / "a.mha", volume);
   const Volume read = read_volume(folder / "a.mha");
   fs::resize_file(folder / "a.mha", 100);
-  EXPECT_EXIT(bytes_of(read), testing::ExitedWithCode(4), "^pendular: an input file was cut short.*\n$");
+  EXPECT_EXIT((own_process(), bytes_of(read)), testing::ExitedWithCode(4),
+              "^pendular: an input file was cut short.*\n$");
 }
 
 std::string pcr(const std::string& format, const std::string& voxel = "0.0025") {
