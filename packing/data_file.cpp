@@ -115,27 +115,50 @@ void require_count(const fs::path& path, const char* what, std::int64_t announce
     bad_input("{}: found {} {}, expected {} as its head says", path.string(), found, what, announced);
 }
 
-}  // namespace
-
-std::string lammps_text(const Packing& packing, double density) {
-  require_atom_ids(packing);
+/// The bridges that are bonds.
+std::vector<const Bridge*> bonds_of(const Packing& packing) {
   std::vector<const Bridge*> bonds;
   for (const auto& bridge : packing.bridges)
     if (bridge.state == BridgeState::bridge || bridge.state == BridgeState::candidate)
       bonds.push_back(&bridge);
-  std::string text = header(packing, "hybrid sphere bond", bonds.size());
+  return bonds;
+}
+
+/// Their section of a data file; empty where there are none.
+std::string bonds_text(const Packing& packing) {
+  std::string text;
+  std::size_t number = 0;
+  for (const Bridge* bond : bonds_of(packing)) {
+    if (text.empty()) text = "\nBonds\n\n";
+    fmt::format_to(std::back_inserter(text), "{} 1 {} {}\n", ++number,
+                   packing.beads[static_cast<std::size_t>(bond->i)].id,
+                   packing.beads[static_cast<std::size_t>(bond->j)].id);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string lammps_text(const Packing& packing, double density) {
+  require_atom_ids(packing);
+  std::string text = header(packing, "hybrid sphere bond", bonds_of(packing).size());
   // LAMMPS takes each atom's mass from its size, yet this atom style wants one per type as well.
   text += fmt::format("\nMasses\n\n1 {}\n", density * M_PI / 6.0 * std::pow(mean_diameter(packing.beads), 3));
   text += "\nAtoms # hybrid\n\n";
   for (const auto& b : packing.beads)
     fmt::format_to(std::back_inserter(text), "{} 1 {} {} {} {} {} 1\n", b.id, b.centre.x(), b.centre.y(),
                    b.centre.z(), b.diameter, density);
-  if (!bonds.empty()) text += "\nBonds\n\n";
-  for (std::size_t k = 0; k < bonds.size(); ++k)
-    fmt::format_to(std::back_inserter(text), "{} 1 {} {}\n", k + 1,
-                   packing.beads[static_cast<std::size_t>(bonds[k]->i)].id,
-                   packing.beads[static_cast<std::size_t>(bonds[k]->j)].id);
-  return text;
+  return text + bonds_text(packing);
+}
+
+std::string lammps_bpm_text(const Packing& packing, double density) {
+  require_atom_ids(packing);
+  std::string text = header(packing, "bpm/sphere", bonds_of(packing).size());
+  text += "\nAtoms # bpm/sphere\n\n";
+  for (const auto& b : packing.beads)
+    fmt::format_to(std::back_inserter(text), "{} 1 1 {} {} {} {} {}\n", b.id, b.diameter, density,
+                   b.centre.x(), b.centre.y(), b.centre.z());
+  return text + bonds_text(packing);
 }
 
 std::string liggghts_text(const Packing& packing, double density) {

@@ -21,10 +21,11 @@ struct Name {
   const char* word;
   std::array<const char*, 2> extensions;
 };
-constexpr std::array<Name, 8> kNames = {{{ExchangeFormat::vtp, "vtp", {".vtp", ".vtp"}},
+constexpr std::array<Name, 9> kNames = {{{ExchangeFormat::vtp, "vtp", {".vtp", ".vtp"}},
                                          {ExchangeFormat::csv, "csv", {".csv", ".csv"}},
                                          {ExchangeFormat::yade, "yade", {".txt", ".yade"}},
                                          {ExchangeFormat::lammps, "lammps", {".data", ".lmp"}},
+                                         {ExchangeFormat::lammps_bpm, "lammps-bpm", {".bpm", ".bpm"}},
                                          {ExchangeFormat::liggghts, "liggghts", {".liggghts", ".liggghts"}},
                                          {ExchangeFormat::spam, "spam", {".tsv", ".tsv"}},
                                          {ExchangeFormat::vtkhdf, "vtkhdf", {".vtkhdf", ".vtkhdf"}},
@@ -81,11 +82,13 @@ Packing read_unchecked(const fs::path& path, ExchangeFormat format, std::optiona
       packing.beads = read_spam(path, table, diameter);
       break;
     case ExchangeFormat::vtkhdf:
-      throw BadUsage("format vtkhdf is write only, expected vtp, csv, yade, lammps, liggghts, spam or xyz");
+      throw BadUsage(
+          "format vtkhdf is write only, expected vtp, csv, yade, lammps, lammps-bpm, liggghts, spam or xyz");
     case ExchangeFormat::xyz:
       packing.beads = read_xyz(path, diameter);
       break;
     case ExchangeFormat::lammps:
+    case ExchangeFormat::lammps_bpm:
     case ExchangeFormat::liggghts:
       packing = read_data_file(path);
       break;
@@ -98,20 +101,20 @@ Packing read_unchecked(const fs::path& path, ExchangeFormat format, std::optiona
 ExchangeFormat exchange_format(const std::string& word) {
   for (const auto& name : kNames)
     if (word == name.word) return name.format;
-  throw BadUsage(
-      fmt::format("format: found {}, expected vtp, csv, yade, lammps, liggghts, spam, vtkhdf or xyz", word));
+  throw BadUsage(fmt::format(
+      "format: found {}, expected vtp, csv, yade, lammps, lammps-bpm, liggghts, spam, vtkhdf or xyz", word));
 }
 
 ExchangeFormat exchange_format_of(const fs::path& path) {
   for (const auto& name : kNames)
     for (const char* extension : name.extensions)
       if (path.extension() == extension) return name.format;
-  throw BadUsage(
-      fmt::format("{}: the extension names no format, expected .vtp, .csv, .txt, .data, .lmp, .liggghts, "
-                  ".tsv, .vtkhdf or "
-                  ".xyz, or "
-                  "the format by option",
-                  path.string()));
+  throw BadUsage(fmt::format(
+      "{}: the extension names no format, expected .vtp, .csv, .txt, .data, .lmp, .bpm, .liggghts, "
+      ".tsv, .vtkhdf or "
+      ".xyz, or "
+      "the format by option",
+      path.string()));
 }
 
 void write_exchange(const fs::path& path, ExchangeFormat format, const Packing& packing, double density) {
@@ -124,6 +127,8 @@ void write_exchange(const fs::path& path, ExchangeFormat format, const Packing& 
       return write_text(path, yade_text(packing));
     case ExchangeFormat::lammps:
       return write_text(path, lammps_text(packing, density));
+    case ExchangeFormat::lammps_bpm:
+      return write_text(path, lammps_bpm_text(packing, density));
     case ExchangeFormat::liggghts:
       return write_text(path, liggghts_text(packing, density));
     case ExchangeFormat::vtkhdf:
@@ -131,7 +136,8 @@ void write_exchange(const fs::path& path, ExchangeFormat format, const Packing& 
     case ExchangeFormat::spam:
     case ExchangeFormat::xyz:
       throw BadUsage(
-          "formats spam and xyz are read only, expected vtp, csv, yade, lammps, liggghts or vtkhdf");
+          "formats spam and xyz are read only, expected vtp, csv, yade, lammps, lammps-bpm, liggghts or "
+          "vtkhdf");
   }
 }
 

@@ -36,7 +36,7 @@ def write_bridges(path: PathLike, beads: np.ndarray, bridges: np.ndarray) -> Non
 
 
 def read_packing(path: PathLike) -> _core.Packing:
-    """packing.vtp, or what another program wrote: Yade text (.txt), LAMMPS data (.data, .lmp), .liggghts, beads.csv."""
+    """packing.vtp, or what another program wrote: Yade text (.txt), LAMMPS data (.data, .lmp, .bpm), .liggghts, beads.csv."""
     return _core.read_packing(path) if str(path).endswith(".vtp") else _core.read_exchange(path)
 
 

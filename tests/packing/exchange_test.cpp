@@ -48,6 +48,7 @@ INSTANTIATE_TEST_SUITE_P(All, Exchange,
                          ::testing::Values(Case{"csv", ExchangeFormat::csv, true, false, 1e-12},
                                            Case{"yade", ExchangeFormat::yade, false, false, 1e-18},
                                            Case{"lammps", ExchangeFormat::lammps, true, true, 0.0},
+                                           Case{"lammps_bpm", ExchangeFormat::lammps_bpm, true, true, 0.0},
                                            Case{"liggghts", ExchangeFormat::liggghts, true, false, 0.0}),
                          [](const auto& entry) { return entry.param.name; });
 
