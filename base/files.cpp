@@ -202,8 +202,9 @@ void require_outputs(const std::vector<fs::path>& outputs) {
   for (const auto& path : outputs) {
     if (path.empty()) continue;
     require_no_input(path);
-    std::error_code ignored;
-    const bool new_name = names.insert(fs::weakly_canonical(path, ignored)).second;
+    std::error_code circle;  // of links: where its name leads is not known, and it is refused when written
+    const fs::path followed = fs::weakly_canonical(path, circle);
+    const bool new_name = names.insert(circle ? path.lexically_normal() : followed).second;
     const auto identity = identity_of(path);
     if (!new_name || (identity && !there.insert(*identity).second))
       throw BadUsage(

@@ -50,6 +50,10 @@ def inputs():
         yield Row("1 " + name, "$P " + command + " --quiet", 2, "", both(links, detached))
     yield Row("1 pack -o beside its bridges", "$P pack beads.csv --sample s.toml --bridges q.json -o q.vtp", 2, "q.json",
               lambda folder: shutil.copy(folder / "bridges.csv", folder / "q.json"))
+    for command in ("segment scan.mha -o", "pack beads.csv --sample s.toml -o", "track beads.csv beads.csv -o", "bridge s.toml -o"):
+        output = "circle/new.vtp" if command.startswith("pack") else "circle/new.csv"
+        yield Row(f"1 {command} below a link in a circle", f"$P {command} {output} --quiet", 3, "cannot be seen",
+                  lambda folder: os.symlink("circle", folder / "circle"), warns=True)
     for number in (1, 2):
         yield Row(f"1 segment slices -o slice {number}", f"$P segment slices --voxel-um 10 -o slices/s{number}.png", 2, f"s{number}.png",
                   lambda folder: [file(f"slices/s{k}.png", PNG)(folder) for k in (1, 2, 3)])
