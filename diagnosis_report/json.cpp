@@ -166,7 +166,10 @@ ordered_json promise_of(const Diagnosis& d) {
           {"theta_held", replayed(p.theta_held)},
           {"limits_held", replayed(p.limits_held)},
           {"false_alarms", replayed(p.false_alarms)},
+          {"outside",
+           {{"cases", p.outside.cases}, {"flagged", p.outside.flagged}, {"misnamed", p.outside.misnamed}}},
           {"temperature", number(p.correction.temperature)},
+          {"for_unknown", number(p.correction.for_unknown)},
           {"reliability", reliability},
           {"effects", effects}};
 }

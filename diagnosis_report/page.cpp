@@ -100,6 +100,12 @@ viz::ReportSection promise_section(const Diagnosis& d) {
       "something not in the library among them in {}; 90 % intervals held the magnitude in {}.",
       p.cases, percent(p.in_set), percent(p.confidence), rounded(p.set_size), percent(p.false_alarms),
       percent(p.theta_held));
+  if (p.outside.cases > 0)
+    text += fmt::format(
+        " Of {} runs whose effect the library was made to lack, as it lacks other mechanisms, {} were "
+        "flagged as "
+        "unknown and {} named something else with more than 0.9.",
+        p.outside.cases, p.outside.flagged, p.outside.misnamed);
   std::vector<std::string> hidden;
   for (const auto& one : d.unseen)
     hidden.push_back(

@@ -24,8 +24,9 @@ struct EffectReplay {
 /// How probabilities, sets and intervals are made to hold what they promise, learnt from a replay; as it
 /// stands, for a bank that is too small for one: wide.
 struct Correction {
-  double temperature = 2.0;                   ///< by which logarithms of evidence are divided
-  double level = 0.95;                        ///< of the known explanations' probability, that a set holds
+  double temperature = 2.0;  ///< by which logarithms of evidence are divided
+  double for_unknown = 0.0;  ///< added to the logarithm of the evidence of `unknown`, as it is weighed then
+  double level = 0.95;       ///< of the known explanations' probability, that a set holds
   std::map<std::string, double> levels = {};  ///< likewise, for explanations that need another one to get in
   double gate = 0.1;                          ///< probability of `unknown` from which it belongs to the set
   std::map<std::string, double> widening = {};  ///< of an effect's interval of θ
@@ -36,7 +37,12 @@ struct Correction {
   std::set<std::string> unseen = {};
 };
 
-/// The explanation that is right for a replayed run.
+/// What a replay says of mechanisms that the library lacks (LeftOut::effects).
+struct OutsideReplay {
+  std::size_t cases = 0, flagged = 0, misnamed = 0;  ///< `unknown` in the set; another above nine tenths
+};
+
+/// The explanation that is right for a replayed run: `unknown` where its effect was left out.
 std::string truth_of(const Replayed& one);
 
 /// Upper limit of |θ|, at 95 %, of an effect that is there: the farther end of its corrected interval,
@@ -60,6 +66,7 @@ struct Promise {
   double false_alarms = 0.0;  ///< share of known runs whose set holds `unknown`
   std::vector<Reliability> reliability;
   std::map<std::string, EffectReplay> effects;
+  OutsideReplay outside;
   Correction correction;
 };
 
@@ -70,6 +77,9 @@ struct Promise {
 /// Pairs that are not told from one of their effects likewise. `unknown` is let in by the
 /// same rule at a false-alarm rate of 5 %; intervals of θ likewise at 90 %, those of effects with few runs
 /// drawn to what all need; upper limits at 95 %.
+///
+/// Runs whose effect was left out have the prior share of `unknown` in what probabilities are learnt from,
+/// and in their reliability; of sets nothing is promised for them.
 Promise promise_of(const std::vector<Replayed>& replayed, double confidence);
 
 /// Probabilities by tempered evidence, and intervals widened about their means.

@@ -13,10 +13,6 @@ namespace {
 
 constexpr int kDraws = 4000;
 
-Eigen::MatrixXd whole_covariance(const Gap& gap) {
-  return gap.covariance + gap.believed * gap.believed.transpose();
-}
-
 /// 95 % quantile of the largest |z| under noise alone.
 double threshold_of(const Eigen::MatrixXd& covariance) {
   const Eigen::VectorXd sigma = covariance.diagonal().cwiseSqrt();
@@ -32,6 +28,10 @@ double threshold_of(const Eigen::MatrixXd& covariance) {
 }
 
 }  // namespace
+
+Eigen::MatrixXd whole_covariance(const Gap& gap) {
+  return gap.covariance + gap.believed * gap.believed.transpose();
+}
 
 GapTable gap_table(const std::vector<Feature>& observed, const std::vector<double>& simulated,
                    const Gap& gap) {

@@ -38,6 +38,9 @@ struct GapTable {
 GapTable gap_table(const std::vector<Feature>& observed, const std::vector<double>& simulated,
                    const Gap& gap);
 
+/// Of all noise, believed inputs included.
+Eigen::MatrixXd whole_covariance(const Gap& gap);
+
 /// √max(0, gᵀ C⁻¹ g / p − 1) of a gap, believed inputs floating.
 double excess(const Gap& gap);
 

@@ -17,10 +17,6 @@
 namespace pendular::diagnosis {
 namespace {
 
-Eigen::MatrixXd whole_covariance(const Gap& gap) {
-  return gap.covariance + gap.believed * gap.believed.transpose();
-}
-
 const Signature* signature_of(const Comparison& comparison, const std::string& id) {
   for (const auto& signature : comparison.signatures)
     if (signature.id == id) return &signature;
@@ -235,10 +231,10 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   diagnosis.noise = landmarks.noise;
   set_signatures(problem, diagnosis);
   const Priors priors = priors_of(readings, rules);
-  diagnosis.promise =
-      promise_of(problem.features ? replay(experiment, plan, *problem.features, priors, rules.draws)
-                                  : std::vector<Replayed>{},
-                 rules.confidence);
+  diagnosis.promise = promise_of(
+      problem.features ? replay(experiment, plan, *problem.features, priors, rules.draws, LeftOut::effects)
+                       : std::vector<Replayed>{},
+      rules.confidence);
   const auto hypotheses =
       corrected(weigh(readings.gap, readings.signatures, readings.together, priors, Pairs::run),
                 diagnosis.promise.correction);

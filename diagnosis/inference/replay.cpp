@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "base/parallel.h"
 #include "base/random.h"
@@ -12,8 +14,9 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kNegligible = 12.0;  // evidence, as a logarithm, below the best one's
-constexpr int kMoreBaselines = 3;     // draws, over those of other runs
+constexpr double kNegligible = 12.0;     // evidence, as a logarithm, below the best one's
+constexpr int kMoreBaselines = 3;        // draws, over those of other runs
+constexpr std::size_t kLeftOutRuns = 3;  // of each effect
 constexpr std::uint64_t kSeedsOfMember = 1000000;
 
 bool is_effect(const std::string& id) {
@@ -49,9 +52,35 @@ class Errors {
   Eigen::MatrixXd root_;
 };
 
+/// The runs of each effect that are diagnosed without it: places among the points of a plan.
+std::vector<std::size_t> runs_to_leave_out(const BankPlan& plan) {
+  std::map<std::string, std::vector<std::size_t>> runs;
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    const DesignPoint& point = plan.points[k];
+    if (is_effect(point.id) && !point.scans_only && point.whole != plan.scaled()) runs[point.id].push_back(k);
+  }
+  std::vector<std::size_t> chosen;
+  for (auto& [id, points] : runs) {
+    std::stable_sort(points.begin(), points.end(), [&](std::size_t a, std::size_t b) {
+      return std::fabs(plan.points[a].theta) < std::fabs(plan.points[b].theta);
+    });
+    std::set<std::size_t> ranks;
+    for (std::size_t part = 1; part <= kLeftOutRuns; ++part)
+      ranks.insert(part * (points.size() - 1) / kLeftOutRuns);
+    for (const std::size_t rank : ranks) chosen.push_back(points[rank]);
+  }
+  return chosen;
+}
+
+Comparison without(Comparison learnt, const std::string& effect) {
+  std::erase_if(learnt.signatures, [&](const Signature& one) { return one.id == effect; });
+  std::erase_if(learnt.together, [&](const Together& one) { return one.a == effect || one.b == effect; });
+  return learnt;
+}
+
 std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan& plan,
-                                    const BankFeatures& features, const Priors& priors, int member,
-                                    int draws) {
+                                    const BankFeatures& features, const Priors& priors, int member, int draws,
+                                    const std::vector<std::size_t>& left_out) {
   const auto [design, held] = features.held_out(member, draws, kMoreBaselines * draws);
   const Comparison learnt = compare(experiment, plan, design);
   const Weigher weigher(learnt.gap, learnt.signatures, learnt.together, priors, Pairs::run);
@@ -74,17 +103,32 @@ std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan
   }
   auto said = weigher(observed, kNegligible);
   for (std::size_t k = 0; k < found.size(); ++k) found[k].said = std::move(said[k]);
+  for (const std::size_t at : left_out) {
+    const DesignPoint& point = plan.points[at];
+    if (point.member != member) continue;
+    const auto one = std::find_if(found.begin(), found.end(),
+                                  [&](const Replayed& run) { return run.truth == point.changes; });
+    if (one == found.end()) continue;
+    const Comparison less = without(learnt, point.id);
+    if (less.signatures.empty()) continue;
+    const auto& values = observed[static_cast<std::size_t>(one - found.begin())];
+    Replayed outside{member, point.changes, {}, point.id};
+    outside.said =
+        Weigher(less.gap, less.signatures, less.together, priors, Pairs::run)({values}, kNegligible).front();
+    found.push_back(std::move(outside));
+  }
   return found;
 }
 
 }  // namespace
 
 std::vector<Replayed> replay(const Experiment& experiment, const BankPlan& plan, const BankFeatures& features,
-                             const Priors& priors, int draws) {
+                             const Priors& priors, int draws, LeftOut left_out) {
+  const auto chosen = left_out == LeftOut::effects ? runs_to_leave_out(plan) : std::vector<std::size_t>{};
   const auto members = features.members();
   std::vector<std::vector<Replayed>> of_members(members.size());
   for_blocks(members.size(), 1, [&](std::size_t m, std::size_t) {
-    of_members[m] = replay_member(experiment, plan, features, priors, members[m], draws);
+    of_members[m] = replay_member(experiment, plan, features, priors, members[m], draws, chosen);
   });
   std::vector<Replayed> all;
   for (auto& one : of_members) std::move(one.begin(), one.end(), std::back_inserter(all));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "diagnosis/bank/design.h"
@@ -12,13 +13,22 @@ struct Replayed {
   int member = 0;
   Changes truth;                 ///< its effects, without those that count as absent (Weigher::absent)
   std::vector<Hypothesis> said;  ///< of it by a bank that lacks its member; most probable first
+  std::string left_out = {};  ///< the effect that the library lacked too: to be called unknown; empty: none
 };
+
+/// Whether effects are also diagnosed by a library that lacks them.
+enum class LeftOut { nothing, effects };
 
 /// Every run of the bank that goes all the way is an experiment of known truth: its own errors of measurement
 /// and of the simulation, and wrong beliefs, are drawn by their covariances, seeded by its place; its member
 /// is left out of all that is learnt. Members are replayed in parallel; what comes out does not depend on the
 /// number of threads. `draws`: of each run with an effect; of those without three times as many.
+///
+/// LeftOut::effects: three runs of each effect, at a third and two thirds of the way to its largest magnitude
+/// and at that, are diagnosed once more by a library without the effect, whatever it shares with others:
+/// mechanisms of which nothing was learnt, as those outside the library are. Only those that the library
+/// would see (Weigher::absent).
 std::vector<Replayed> replay(const Experiment& experiment, const BankPlan& plan, const BankFeatures& features,
-                             const Priors& priors, int draws);
+                             const Priors& priors, int draws, LeftOut left_out = LeftOut::nothing);
 
 }  // namespace pendular::diagnosis
