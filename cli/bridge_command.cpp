@@ -23,7 +23,7 @@
 namespace pendular::cli {
 namespace {
 
-struct Options {
+struct BridgeOptions {
   Common common;
   fs::path sample, plot;
   std::string neck_um, gap_um, bead_um, second_bead_um, youngs_modulus_pa, poisson_ratio;
@@ -98,7 +98,7 @@ std::vector<double> values_of(const std::string& option, const std::string& text
   return values;
 }
 
-std::vector<Row> rows_of(const Options& options) {
+std::vector<Row> rows_of(const BridgeOptions& options) {
   const Sample sample = options.sample.empty() ? Sample{} : read_sample(options.sample);
   const double um = 1e-6;
   const auto necks = values_of("--d-um", options.neck_um, um, sample.bridges.diameter);
@@ -227,7 +227,7 @@ std::vector<viz::StiffnessCurve> curves_of(const std::vector<Row>& rows) {
 }
 
 /// "kn paper, ours, difference": 5760 against 5517 gives −4.2 %.
-std::string beside(double paper, double ours) {
+std::string with_departure(double paper, double ours) {
   return fmt::format("{:>9.0f} {:>9.1f} {:>+8.1f} %", paper, ours, 100.0 * (ours / paper - 1.0));
 }
 
@@ -246,8 +246,8 @@ void print_table_1() {
         of(s.neck_diameter, reproduction::kPaperGap, s.bead_diameter, s.youngs_modulus);
     worst = std::max(worst, k.error_estimate);
     fmt::print("{:<10} {:>8.3g} {:>6.1f} {:>6.1f}   {}   {}\n", s.name, s.youngs_modulus,
-               1e6 * s.neck_diameter, 1e6 * s.bead_diameter, beside(s.normal_stiffness, k.normal),
-               beside(s.tangential_stiffness, k.tangential));
+               1e6 * s.neck_diameter, 1e6 * s.bead_diameter, with_departure(s.normal_stiffness, k.normal),
+               with_departure(s.tangential_stiffness, k.tangential));
   }
   fmt::print(
       "\nMicromechanical tests (E_p 50 kPa, d 50 to 270 um, D 365 um); measured kn 200 to 800, kt 5 to 30 "
@@ -266,7 +266,7 @@ void print_table_1() {
 }
 
 /// This run's provenance, which names no output.
-Provenance provenance_of(const Options& options) {
+Provenance provenance_of(const BridgeOptions& options) {
   std::vector<fs::path> inputs;
   if (!options.sample.empty()) inputs.push_back(options.sample);
   Provenance result = provenance(options.common, inputs);
@@ -278,7 +278,7 @@ Provenance provenance_of(const Options& options) {
   return result;
 }
 
-void run(const Options& options) {
+void run(const BridgeOptions& options) {
   apply(options.common, {options.sample}, {options.common.out, options.plot});
   if (options.paper && (options.has_values() || !options.sample.empty()))
     throw BadUsage("bridge: --paper goes without a sample and without values");
@@ -312,7 +312,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_bridge(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BridgeOptions>();
   auto* command = add_picture_command(app, "bridge");
   command->add_option("sample", options->sample, "Sample file (.toml)");
   command->add_option("--d-um", options->neck_um, "Bridge diameter d, um");

@@ -11,7 +11,7 @@
 namespace pendular::cli {
 namespace {
 
-struct Options {
+struct CompressOptions {
   Common common;
   fs::path packing, sample;
   int realisations = 1;
@@ -64,7 +64,7 @@ nlohmann::ordered_json ensemble(const std::vector<nlohmann::ordered_json>& resul
       {"provenance", to_json(provenance)}};
 }
 
-void run(const Options& options) {
+void run(const CompressOptions& options) {
   apply(options.common, {options.packing, options.sample});
   const Packing packing = read_packing(options.packing);
   const Sample sample = read_sample(options.sample);
@@ -104,7 +104,7 @@ void run(const Options& options) {
 void add_compress(CLI::App& app) {
   auto* command =
       app.add_subcommand("compress", "Uniaxial compression of a packing by the discrete element model");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompressOptions>();
   command->add_option("packing", options->packing, "packing.vtp")->required();
   command->add_option("--sample", options->sample, "Sample file (TOML)")->required();
   command

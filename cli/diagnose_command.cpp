@@ -21,7 +21,7 @@
 namespace pendular::cli {
 namespace {
 
-struct Options {
+struct DiagnoseOptions {
   Common common;
   RunMaking making;
   fs::path file;
@@ -31,7 +31,7 @@ struct Options {
   std::vector<std::string> leave_out, about;
 };
 
-diagnosis::BankOptions bank_options(const Options& options) {
+diagnosis::BankOptions bank_options(const DiagnoseOptions& options) {
   diagnosis::BankOptions bank;
   bank.levels = options.levels;
   bank.runs = options.runs;
@@ -39,7 +39,7 @@ diagnosis::BankOptions bank_options(const Options& options) {
   return bank;
 }
 
-std::vector<fs::path> inputs_of(const Options& options, const diagnosis::Experiment& experiment) {
+std::vector<fs::path> inputs_of(const DiagnoseOptions& options, const diagnosis::Experiment& experiment) {
   std::vector<fs::path> inputs = {options.file, experiment.sample_file};
   for (const auto& observation : experiment.observations) {
     inputs.push_back(observation.file);
@@ -50,7 +50,7 @@ std::vector<fs::path> inputs_of(const Options& options, const diagnosis::Experim
   return inputs;
 }
 
-void tell_cost(const Options& options, const diagnosis::Experiment& experiment) {
+void tell_cost(const DiagnoseOptions& options, const diagnosis::Experiment& experiment) {
   const TemporaryFolder beads;
   const auto plan = diagnosis::plan_bank(experiment, bank_options(options), beads.path());
   say(fmt::format(
@@ -59,7 +59,7 @@ void tell_cost(const Options& options, const diagnosis::Experiment& experiment) 
   tell_work(options.making, options.common, plan.requests);
 }
 
-diagnosis::MakeRuns maker(const Options& options) {
+diagnosis::MakeRuns maker(const DiagnoseOptions& options) {
   return [&options](const std::string& name, std::span<const sweep::RunRequest> requests) {
     return make_runs(options.making, options.common, name, requests);
   };
@@ -76,7 +76,7 @@ std::string in_words(const diagnosis::NextSteps& steps) {
 }
 
 /// Before anything is measured.
-void plan(const Options& options, const diagnosis::Experiment& beliefs) {
+void plan(const DiagnoseOptions& options, const diagnosis::Experiment& beliefs) {
   protect_also({beliefs.sample_file});
   std::set<std::string> about;
   for (const auto& id : options.about) about.insert(effects::find_effect(id, "--about").id);
@@ -95,7 +95,7 @@ void plan(const Options& options, const diagnosis::Experiment& beliefs) {
   say(in_words(steps));
 }
 
-void run(const Options& options) {
+void run(const DiagnoseOptions& options) {
   apply(options.common, {options.file});
   check(options.making);
   if (options.plan)
@@ -123,7 +123,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_diagnose(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DiagnoseOptions>();
   auto* command = add_picture_command(app, "diagnose");
   command->add_option("file", options->file, "Experiment file (.toml)")->required();
   command->add_flag("--dry-run", options->dry_run, "Say how many runs there are and how long they take");

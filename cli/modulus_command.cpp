@@ -15,7 +15,7 @@
 namespace pendular::cli {
 namespace {
 
-struct Options {
+struct ModulusOptions {
   Common common;
   fs::path packing, sample;
   double strain = 0.03;
@@ -28,7 +28,7 @@ std::string in_words(const dem_core::LinearResponse& response, double strain) {
   return text;
 }
 
-void run(const Options& options) {
+void run(const ModulusOptions& options) {
   apply(options.common, {options.packing, options.sample}, {options.common.out});
   const Sample sample = read_sample(options.sample);
   effects::check_effects(sample, options.sample.string());
@@ -47,7 +47,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_modulus(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ModulusOptions>();
   auto* command = app.add_subcommand(
       "modulus",
       "Young's modulus and Poisson ratio of a packing as a linear network of springs, without a DEM run,\n"

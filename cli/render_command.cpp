@@ -13,14 +13,14 @@
 namespace pendular::cli {
 namespace {
 
-struct Options {
+struct RenderOptions {
   Common common;
   fs::path run;
   viz::RenderOptions render;
   bool no_film = false;
 };
 
-void render(Options& options) {
+void render(RenderOptions& options) {
   apply(options.common, {});
   for (const auto& input : picture_inputs(options.run))
     protect_also(is_folder(input) ? files_in(input) : std::vector{input});
@@ -41,7 +41,7 @@ void render(Options& options) {
 }  // namespace
 
 void add_render(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RenderOptions>();
   auto* command = add_picture_command(app, "render");
   command
       ->add_option("run", options->run,

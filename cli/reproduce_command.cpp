@@ -19,7 +19,7 @@ namespace {
 using reproduction::Point;
 using reproduction::Section;
 
-struct Options {
+struct ReproduceOptions {
   Common common;
   RunMaking making;
   fs::path folder;
@@ -31,7 +31,7 @@ constexpr const char* kSweeps[] = {"realisations_a",     "realisations_b", "modu
 
 /// The points of the sweep NAME.toml of the folder, its runs made and its tables written; nothing where the
 /// folder does not hold it.
-std::vector<Point> points_of(const Options& options, const std::string& name,
+std::vector<Point> points_of(const ReproduceOptions& options, const std::string& name,
                              std::vector<std::string>& failed) {
   const fs::path path = options.folder / (name + ".toml");
   if (!is_there(path)) return {};
@@ -86,7 +86,7 @@ std::vector<Section> sections_of(const reproduction::Desk& desk, sweep::Store& s
   return sections;
 }
 
-void run(const Options& options) {
+void run(const ReproduceOptions& options) {
   cli::apply(options.common, files_in(options.folder));
   check(options.making);
   const Provenance from = provenance(options.common, inputs_of(options.folder));
@@ -106,7 +106,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_reproduce(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReproduceOptions>();
   auto* command = add_picture_command(app, "reproduce");
   command->add_option("folder", options->folder, "Folder of sweep files")
       ->required()

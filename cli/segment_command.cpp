@@ -14,7 +14,7 @@
 namespace pendular::cli {
 namespace {
 
-struct Options {
+struct SegmentOptions {
   Common common;
   fs::path volume, bridges, labels, qa;
   double voxel_um = 0.0, min_diameter_um = 0.0;
@@ -25,7 +25,7 @@ struct Options {
   segmentation::SegmentOptions segment;
 };
 
-ReadOptions reading(const Options& options) {
+ReadOptions reading(const SegmentOptions& options) {
   ReadOptions reading;
   if (options.voxel_um > 0.0) reading.spacing = options.voxel_um * 1e-6;
   if (options.size.empty() != options.type.empty())
@@ -35,7 +35,7 @@ ReadOptions reading(const Options& options) {
   return reading;
 }
 
-segmentation::SegmentOptions choices(const Options& options) {
+segmentation::SegmentOptions choices(const SegmentOptions& options) {
   segmentation::SegmentOptions segment = options.segment;
   if (!options.bridges.empty()) segment.bridges = {options.false_discoveries, options.calibrate_bridges};
   segment.tone = options.tone == "bright" ? segmentation::BeadTone::bright
@@ -103,7 +103,7 @@ nlohmann::ordered_json summary(const Volume& volume, const segmentation::Segment
   return json;
 }
 
-void run(const Options& options) {
+void run(const SegmentOptions& options) {
   const fs::path& out = options.common.out;
   const std::vector<fs::path> outputs = {out, beside(out, ".json"), options.bridges, options.labels};
   apply(options.common, {options.volume}, outputs);
@@ -142,7 +142,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_segment(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SegmentOptions>();
   auto* command = add_picture_command(app, "segment");
   command->add_option("volume", options->volume, "Volume: " + format_names())->required();
   add_common(*command, options->common, "Beads (beads.csv); a summary goes beside it as .json");

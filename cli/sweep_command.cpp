@@ -10,7 +10,7 @@
 namespace pendular::cli {
 namespace {
 
-struct Options {
+struct SweepOptions {
   Common common;
   RunMaking making;
   bool seed_given = false;
@@ -18,7 +18,7 @@ struct Options {
   bool dry_run = false;
 };
 
-void run(const Options& options) {
+void run(const SweepOptions& options) {
   apply(options.common, {options.file});
   check(options.making);
   const auto seed = options.seed_given ? std::optional(options.common.seed) : std::nullopt;
@@ -56,7 +56,7 @@ void run_one(const RunOptions& options) {
 }  // namespace
 
 void add_sweep(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SweepOptions>();
   auto* command = app.add_subcommand(
       "sweep",
       "Families of compressions: all combinations of a grid and of lists of keys, each in several "

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kLeastBeads = 10;
 
-struct Options {
+struct TrackOptions {
   Common common;
   fs::path before, after, pictures;
   tracking::TrackOptions track;
@@ -103,7 +103,7 @@ viz::Frame frame_of(const std::vector<Bead>& before, const tracking::Motion& mot
   return frame;
 }
 
-void draw(const Options& options, const std::vector<Bead>& before, const std::vector<Bead>& after,
+void draw(const TrackOptions& options, const std::vector<Bead>& before, const std::vector<Bead>& after,
           const tracking::Motion& motion, const Provenance& origin) {
   make_folder(options.pictures);
   const viz::Frame frame = frame_of(before, motion, specimen_enclosing(after));
@@ -131,7 +131,7 @@ std::vector<Bead> read_scan(const fs::path& path) {
   return beads;
 }
 
-void report(const Options& options, const std::vector<Bead>& before, const std::vector<Bead>& after,
+void report(const TrackOptions& options, const std::vector<Bead>& before, const std::vector<Bead>& after,
             const tracking::Motion& motion) {
   const tracking::Registration& registration = motion.registration;
   say(fmt::format(
@@ -149,7 +149,7 @@ void report(const Options& options, const std::vector<Bead>& before, const std::
         options.after.string(), options.before.string(), 1e6 * registration.rms_residual));
 }
 
-void run(const Options& options) {
+void run(const TrackOptions& options) {
   const fs::path& out = options.common.out;
   apply(options.common, {options.before, options.after}, {out, beside(out, ".json")});
   const auto before = read_scan(options.before), after = read_scan(options.after);
@@ -173,7 +173,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_track(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TrackOptions>();
   auto* command = add_picture_command(app, "track");
   command->add_option("before", options->before, "Beads of the first scan (beads.csv), ten or more")
       ->required();

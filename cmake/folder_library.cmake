@@ -1,13 +1,17 @@
 # One static library per folder. A target finds the headers of a folder only through that folder's
 # own include directory (a link of the same name), so including a folder without linking it fails to compile.
 #
-#   pendular_folder_library(packing SOURCES a.cpp b.cpp PUBLIC base PRIVATE VTK::IOXML)
+#   pendular_folder_library(packing SOURCES a.cpp b.cpp PUBLIC base PRIVATE VTK::IOXML APART b.cpp)
+#
+# Where CMAKE_UNITY_BUILD is on (presets), eight sources are compiled as one: most of the time to compile goes into headers and
+# templates that they share. APART: sources whose local names are those of others, like kinds of observation; by themselves.
 function(pendular_folder_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE;APART" ${ARGN})
   set(root ${PROJECT_BINARY_DIR}/include/${name})
   file(MAKE_DIRECTORY ${root})
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${name} SYMBOLIC)
   add_library(${name} STATIC ${arg_SOURCES})
+  set_source_files_properties(${arg_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_include_directories(${name} PUBLIC ${root})
   # Position-independent: shared objects (VTK's writer, the Python module) hold copies.
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)

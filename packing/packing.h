@@ -44,6 +44,8 @@ struct Specimen {
   double height = 0.0;                ///< m
   double axis_x = 0.0, axis_y = 0.0;  ///< m
   double bottom = 0.0;                ///< z of the lower piston's face, m
+
+  double volume() const { return M_PI / 4.0 * diameter * diameter * height; }  ///< m³
 };
 
 struct Packing {

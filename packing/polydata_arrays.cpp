@@ -16,7 +16,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::uint64_t kDeflateLimit = 1032;     // a byte of zlib's gives no more
 constexpr std::uint64_t kLongestText = 1U << 26;  // of a field
 
 template <typename T>

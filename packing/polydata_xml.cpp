@@ -13,7 +13,6 @@ namespace pendular {
 namespace {
 
 constexpr std::int64_t kMostComponents = 64;
-constexpr std::uint64_t kDeflateLimit = 1032;  // a byte of zlib's gives no more
 constexpr std::string_view kAppended = "<AppendedData";
 
 using Attributes = std::map<std::string, std::string>;

@@ -9,6 +9,9 @@
 
 namespace pendular {
 
+/// Bytes that a byte of zlib's gives, at most.
+inline constexpr std::uint64_t kDeflateLimit = 1032;
+
 /// A DataArray element of a .vtp, as it stands there. Internal to packing, as all here.
 struct XmlArray {
   enum class Format { ascii, binary, appended };

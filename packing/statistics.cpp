@@ -43,10 +43,6 @@ double volume_inside(const Bead& bead, const Specimen& cylinder) {
   return sum * (high - low) / (3.0 * kSlices);
 }
 
-double volume(const Specimen& cylinder) {
-  return M_PI / 4.0 * cylinder.diameter * cylinder.diameter * cylinder.height;
-}
-
 /// Number of interior ends (0, 1 or 2) of a pair.
 int interior_ends(const std::vector<Bead>& beads, const Bridge& pair) {
   return !beads[static_cast<std::size_t>(pair.i)].boundary +
@@ -122,7 +118,7 @@ double volume_fraction_within(const std::vector<Bead>& beads, const Specimen& cy
   });
   double sum = 0.0;
   for (const double v : inside) sum += v;
-  return sum / volume(cylinder);
+  return sum / cylinder.volume();
 }
 
 Specimen core_of(const Specimen& specimen, double margin) {
@@ -173,7 +169,7 @@ PackingStatistics packing_statistics(const Packing& packing, double cutoff) {
 
   double solid = 0.0;
   for (const auto& bead : packing.beads) solid += M_PI / 6.0 * std::pow(bead.diameter, 3);
-  result.volume_fraction = solid / volume(packing.specimen);
+  result.volume_fraction = solid / packing.specimen.volume();
   const Specimen core = core_of(packing.specimen, 1.5 * result.mean_diameter);
   result.core_volume_fraction = core.diameter > 0.0 && core.height > 0.0
                                     ? volume_fraction_within(packing.beads, core)

@@ -23,10 +23,6 @@ bool inside(const Vec3& p, const Specimen& s) {
          p.z() < s.bottom + s.height;
 }
 
-double volume(const Specimen& s) {
-  return 0.25 * M_PI * s.diameter * s.diameter * s.height;
-}
-
 /// Of beads about those `margin` inside: the farthest whole shell that leaves enough of them.
 void add_radial_distribution(const Packing& packing, double diameter, Structure& structure) {
   double farthest = kFarthest, references = 0.0, within = 0.0;
@@ -42,7 +38,7 @@ void add_radial_distribution(const Packing& packing, double diameter, Structure&
   // Centres are no nearer to walls than a radius: their density is that of the layer inside.
   const Specimen dense = core_of(packing.specimen, diameter);
   for (const auto& bead : packing.beads) within += inside(bead.centre, dense);
-  const double density = within / volume(dense);
+  const double density = within / dense.volume();
   std::vector<double> counts(static_cast<std::size_t>(std::lround(farthest / kShell)), 0.0);
   const std::vector<double> points(packing.beads.size(), 0.0);
   for (const auto& [i, j] : pairs_within(centres_of(packing.beads), points, farthest * diameter)) {
@@ -77,7 +73,7 @@ double first_peak_of(const Structure& structure) {
 void add_slabs(const Packing& packing, Structure& structure) {
   Specimen slab = packing.specimen;
   slab.height /= static_cast<double>(kSlabs);
-  if (!(volume(slab) > 0.0)) return;
+  if (!(slab.volume() > 0.0)) return;
   for (std::size_t k = 0; k < kSlabs; ++k) {
     slab.bottom = packing.specimen.bottom + static_cast<double>(k) * slab.height;
     structure.slab_middle.push_back(slab.bottom + 0.5 * slab.height);

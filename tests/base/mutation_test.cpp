@@ -1,4 +1,5 @@
 #include "mutation.h"
+#include "places.h"
 
 #include "base/csv.h"
 #include "base/sample.h"
@@ -12,7 +13,8 @@ using test::ScratchFolder;
 
 TEST(Mutation, NoDamageToTextCrashesItsReaders) {
   ScratchFolder folder;
-  read_mutations(folder / "s.toml", read_text(fs::path(PENDULAR_SOURCE_DIR) / "samples" / "demo.toml"), 500,
+  read_mutations(folder / "s.toml",
+                 read_text(fs::path(pendular::test::source_folder()) / "samples" / "demo.toml"), 500,
                  [](const fs::path& path) { read_sample(path); });
   read_mutations(folder / "t.csv", "# comment\na,b,\"c\"\n1,2,3\n4.5,-6e3,7\n", 500,
                  [](const fs::path& path) {

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "places.h"
 
 namespace pendular {
 namespace {
@@ -65,7 +66,7 @@ TEST(Sample, ItsTextTellsEveryKey) {
 }
 
 TEST(Sample, ItsTextReadsBackBitForBit) {
-  const auto root = fs::path(PENDULAR_SOURCE_DIR) / "samples";
+  const auto root = fs::path(pendular::test::source_folder()) / "samples";
   for (const char* name : {"hemmerle2021_a", "hemmerle2021_b", "demo"})
     for (int round = 0; round < 50; ++round) {
       Sample sample = read_sample(root / (std::string(name) + ".toml"));
@@ -125,7 +126,8 @@ TEST(Sample, PolymerContentGoesAsTheSquareOfTheNeck) {
 
 TEST(Sample, TheProjectsOwnSamplesAreValid) {
   for (const char* name : {"hemmerle2021_a", "hemmerle2021_b", "demo"})
-    EXPECT_NO_THROW(read_sample(fs::path(PENDULAR_SOURCE_DIR) / "samples" / (std::string(name) + ".toml")))
+    EXPECT_NO_THROW(
+        read_sample(fs::path(pendular::test::source_folder()) / "samples" / (std::string(name) + ".toml")))
         << name;
 }
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "blind/case_folder.h"
+#include "places.h"
 #include "program.h"
 #include "scratch.h"
 #include "small_split.h"
@@ -12,7 +13,7 @@ using pendular::test::Outcome;
 using pendular::test::ScratchFolder;
 using test::files_in;
 
-const std::string kSplit = "'" PENDULAR_SOURCE_DIR "/samples/blind/small.toml'";
+const std::string kSplit = "'" + pendular::test::source_folder() + "/samples/blind/small.toml'";
 
 Outcome run(const ScratchFolder& folder, const std::string& command) {
   return pendular::test::shell(folder.path(), "$P blind " + command);

@@ -7,6 +7,7 @@
 #include "base/csv.h"
 #include "blind/case_folder.h"
 #include "effects/list.h"
+#include "places.h"
 #include "program.h"
 #include "scratch.h"
 #include "small_split.h"
@@ -26,7 +27,7 @@ class DiagnoseCommand : public ::testing::Test {
     root = new fs::path(fs::temp_directory_path() / fmt::format("pendular.diagnose.{}", ::getpid()));
     make_folder(*root);
     const Outcome made = pendular::test::shell(
-        *root, "$P blind make '" PENDULAR_SOURCE_DIR "/samples/blind/small.toml' -o split");
+        *root, "$P blind make '" + pendular::test::source_folder() + "/samples/blind/small.toml' -o split");
     ASSERT_EQ(made.status, 0) << made.errors;
     fs::remove_all(*root / "split/sealed");
   }

@@ -10,6 +10,7 @@
 #include "dem_core/bond_bodies.h"
 #include "micromechanics/stiffness.h"
 #include "packing/bridges.h"
+#include "places.h"
 #include "scratch.h"
 #include "small_split.h"
 
@@ -198,7 +199,7 @@ TEST(Engine, ItsProcessIsWatched) {
 
 TEST(Engine, AMissingOneEndsMakeBeforeAnyCaseIsMade) {
   ScratchFolder folder;
-  const fs::path samples = fs::path(PENDULAR_SOURCE_DIR) / "samples/blind";
+  const fs::path samples = fs::path(pendular::test::source_folder()) / "samples/blind";
   fs::copy(samples / "small_sample.toml", folder / "small_sample.toml");
   std::string text = read_text(samples / "small.toml");
   text.replace(text.find("library = 1"), 11, "other_engine = 1");
@@ -215,7 +216,7 @@ TEST(Engine, YadesBondIsThatOfClosedForms) {
   if (std::system("command -v yade >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "yade is not installed (Debian: apt-get install yade)";
   ScratchFolder folder;
-  const std::string source = PENDULAR_SOURCE_DIR;
+  const std::string source = pendular::test::source_folder();
   const auto outcome =
       pendular::test::shell(folder.path(), "yade -j1 -n -x '" + source + "/tests/blind/yade/two_beads.py' '" +
                                                source + "/blind/yade' > found.txt");

@@ -8,13 +8,14 @@
 
 #include "blind/mechanism.h"
 #include "effects/list.h"
+#include "places.h"
 #include "small_split.h"
 
 namespace pendular::blind {
 namespace {
 
 Split sealed_split() {
-  return read_split(fs::path(PENDULAR_SOURCE_DIR) / "samples/blind/sealed.toml", std::nullopt);
+  return read_split(fs::path(pendular::test::source_folder()) / "samples/blind/sealed.toml", std::nullopt);
 }
 
 }  // namespace

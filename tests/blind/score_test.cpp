@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "blind/case_folder.h"
 #include "blind/score_files.h"
+#include "places.h"
 #include "program.h"
 #include "scratch.h"
 
@@ -309,10 +310,10 @@ TEST_F(Score, WritesATableThatCanBeReadBack) {
 TEST_F(Score, ItsTablesGoIntoTheDocumentation) {
   const auto all = verdicts(open_seals(folder / "split"), reports);
   write_scores(folder / "score", all, score(all, false), {"0.1.0", "pendular blind score", 1, {}});
-  fs::copy_file(fs::path(PENDULAR_SOURCE_DIR) / "docs/blind.md", folder / "blind.md");
+  fs::copy_file(fs::path(pendular::test::source_folder()) / "docs/blind.md", folder / "blind.md");
   const auto written = [&](const std::string& scores) {
-    return pendular::test::shell(folder.path(),
-                                 PENDULAR_SOURCE_DIR "/scripts/blind-docs --page blind.md " + scores);
+    return pendular::test::shell(
+        folder.path(), pendular::test::source_folder() + "/scripts/blind-docs --page blind.md " + scores);
   };
   ASSERT_EQ(written("'Small split=score' score").status, 0);
   const std::string page = read_text(folder / "blind.md");

@@ -4,13 +4,14 @@
 #include <string>
 
 #include "blind/split.h"
+#include "places.h"
 #include "program.h"
 
 namespace pendular::blind::test {
 
 /// Three cases on one packing of some eighty beads: an effect, none, and one outside the library.
 inline Split small_split() {
-  return read_split(fs::path(PENDULAR_SOURCE_DIR) / "samples/blind/small.toml", std::nullopt);
+  return read_split(fs::path(pendular::test::source_folder()) / "samples/blind/small.toml", std::nullopt);
 }
 
 /// Name and content of every file below a folder.

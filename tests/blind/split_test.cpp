@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "places.h"
 #include "scratch.h"
 #include "small_split.h"
 
@@ -14,7 +15,7 @@ using pendular::test::ScratchFolder;
 /// The small split with one text replaced by another, and what is said of it.
 std::string refusal(const std::string& what, const std::string& by) {
   ScratchFolder folder;
-  const fs::path samples = fs::path(PENDULAR_SOURCE_DIR) / "samples/blind";
+  const fs::path samples = fs::path(pendular::test::source_folder()) / "samples/blind";
   fs::copy(samples / "small_sample.toml", folder / "small_sample.toml");
   std::string text = read_text(samples / "small.toml");
   const auto at = text.find(what);
@@ -33,8 +34,8 @@ std::string refusal(const std::string& what, const std::string& by) {
 
 TEST(Split, ReadsEveryCommittedFile) {
   for (const char* name : {"development2", "sealed2", "sealed", "small"}) {
-    const Split split =
-        read_split(fs::path(PENDULAR_SOURCE_DIR) / "samples/blind" / (std::string(name) + ".toml"), {});
+    const Split split = read_split(
+        fs::path(pendular::test::source_folder()) / "samples/blind" / (std::string(name) + ".toml"), {});
     EXPECT_EQ(split.name, name);
     double sum = 0.0;
     for (double share : split.shares) sum += share;
@@ -43,7 +44,7 @@ TEST(Split, ReadsEveryCommittedFile) {
 }
 
 TEST(Split, DevelopmentAndSealedShareNoPackingAndNoSeed) {
-  const fs::path samples = fs::path(PENDULAR_SOURCE_DIR) / "samples/blind";
+  const fs::path samples = fs::path(pendular::test::source_folder()) / "samples/blind";
   const Split development = read_split(samples / "development2.toml", {});
   const Split sealed = read_split(samples / "sealed2.toml", {});
   EXPECT_NE(development.seed, sealed.seed);
@@ -71,7 +72,7 @@ TEST(Split, RefusesWhatItCannotUse) {
 }
 
 TEST(Split, AnotherSeedIsAnotherSplit) {
-  const fs::path file = fs::path(PENDULAR_SOURCE_DIR) / "samples/blind/small.toml";
+  const fs::path file = fs::path(pendular::test::source_folder()) / "samples/blind/small.toml";
   EXPECT_EQ(read_split(file, {}).content, read_split(file, {}).content);
   EXPECT_NE(read_split(file, {}).content, read_split(file, 6).content);
 }

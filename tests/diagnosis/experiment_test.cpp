@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "places.h"
 #include "sample_file.h"
 #include "scratch.h"
 
@@ -41,7 +42,7 @@ TEST(Experiment, IsRead) {
 
 TEST(Experiment, ThePapersOwnGapIsRead) {
   const Experiment gap =
-      read_experiment(fs::path(PENDULAR_SOURCE_DIR) / "samples/hemmerle2021/gap/experiment.toml");
+      read_experiment(fs::path(pendular::test::source_folder()) / "samples/hemmerle2021/gap/experiment.toml");
   EXPECT_EQ(gap.observations.size(), 6u);
   EXPECT_TRUE(gap.warnings.empty());
 }

@@ -9,6 +9,7 @@
 #include "dem_core/step/step_kernels.h"
 #include "effects/list.h"
 #include "packing/generate.h"
+#include "places.h"
 #include "tests.h"
 
 // Small runs whose numbers are stored. They differ between instruction sets in their last digits only,
@@ -17,7 +18,7 @@
 namespace pendular::effects::test {
 namespace {
 
-constexpr const char* kStored = PENDULAR_SOURCE_DIR "/tests/effects/model_version.csv";
+const std::string kStored = pendular::test::source_folder() + "/tests/effects/model_version.csv";
 constexpr double kTolerance = 1e-6;  // relative; of the largest value of a column
 
 const std::vector<std::string> kColumns = {"strain", "stress_pa", "broken_bonds", "elastic_j",

@@ -28,6 +28,7 @@
 #include "packing/bridges.h"
 #include "packing/exchange.h"
 #include "packing/generate.h"
+#include "places.h"
 #include "program.h"
 #include "scratch.h"
 
@@ -97,7 +98,8 @@ void write_for_yade(const std::filesystem::path& folder, const Packing& packing,
 }
 
 Curve compress_with_yade(const std::filesystem::path& folder, double section) {
-  const auto run = test::shell(folder, "yade -j1 -n -x '" PENDULAR_SOURCE_DIR "/bench/peers/yade.py'");
+  const auto run =
+      test::shell(folder, "yade -j1 -n -x '" + pendular::test::source_folder() + "/bench/peers/yade.py'");
   EXPECT_EQ(run.status, 0) << run.errors;
   Curve curve;
   std::istringstream rows(test::content(folder / "curve.csv"));

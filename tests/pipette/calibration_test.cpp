@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "mutation.h"
 #include "pipette/phantom.h"
+#include "places.h"
 #include "scratch.h"
 
 namespace pendular::pipette {
@@ -48,8 +49,8 @@ TEST(Calibration, SurvivesWritingAndReading) {
 }
 
 TEST(Calibration, OfTheSamplesFolderIsGood) {
-  EXPECT_NO_THROW(
-      read_calibration(fs::path(PENDULAR_SOURCE_DIR) / "samples" / "pipette" / "calibration.toml"));
+  EXPECT_NO_THROW(read_calibration(fs::path(pendular::test::source_folder()) / "samples" / "pipette" /
+                                   "calibration.toml"));
 }
 
 struct Bad {

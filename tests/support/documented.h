@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/files.h"
+#include "places.h"
 
 // Reads what docs/formats.md says: of the table under a heading, the names in backticks in its first column.
 
@@ -34,7 +35,7 @@ inline std::vector<std::string> names_in_backticks(const std::string& text) {
 }
 
 inline std::string formats_page() {
-  return read_text(fs::path(PENDULAR_SOURCE_DIR) / "docs" / "formats.md");
+  return read_text(fs::path(source_folder()) / "docs" / "formats.md");
 }
 
 /// Names of the first column of the table under "### heading", in its order.

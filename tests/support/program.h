@@ -9,6 +9,8 @@
 #include <iterator>
 #include <string>
 
+#include "places.h"
+
 namespace pendular::test {
 
 /// What a run of the program came to.
@@ -25,7 +27,7 @@ inline std::string content(const std::filesystem::path& path) {
 /// Runs a shell command in `folder`, in which $P is the program.
 inline Outcome shell(const std::filesystem::path& folder, const std::string& command) {
   const auto errors = folder / "stderr.txt";
-  const std::string line = "cd '" + folder.string() + "' && P='" PENDULAR_PROGRAM "' && (" + command +
+  const std::string line = "cd '" + folder.string() + "' && P='" + program() + "' && (" + command +
                            ") >/dev/null 2>'" + errors.string() + "'";
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), content(errors)};

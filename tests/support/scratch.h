@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "places.h"
+
 namespace pendular::test {
 
 /// A folder of the test's own that goes with it.
@@ -38,7 +40,7 @@ class ScratchFolder {
 
 /// A file of the shared trial data, beside the checkout; nothing where the data is absent.
 inline std::optional<std::filesystem::path> shared_data(const std::string& name) {
-  const auto path = std::filesystem::path(PENDULAR_SOURCE_DIR) / ".." / "shared" / "data" / name;
+  const auto path = std::filesystem::path(source_folder()) / ".." / "shared" / "data" / name;
   if (!std::filesystem::exists(path)) return std::nullopt;
   return path;
 }

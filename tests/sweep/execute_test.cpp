@@ -7,6 +7,7 @@
 #include "packing/bridges.h"
 #include "packing/generate.h"
 #include "packing/vtp.h"
+#include "places.h"
 #include "scratch.h"
 #include "sweep_files.h"
 
@@ -17,7 +18,7 @@ using test::ScratchFolder;
 
 ExecuteOptions with_program() {
   ExecuteOptions options;
-  options.worker = {PENDULAR_PROGRAM, {"sweep-run"}};
+  options.worker = {pendular::test::program(), {"sweep-run"}};
   return options;
 }
 

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include "base/csv.h"
+#include "places.h"
 #include "program.h"
 #include "scratch.h"
 #include "sweep_files.h"
@@ -31,7 +32,7 @@ class Slurm : public testing::Test {
     return test::shell(folder_.path(), "export SLURM_CONF=$PWD/slurm/slurm.conf; " + command);
   }
 
-  static inline const std::string kScript = PENDULAR_SOURCE_DIR "/scripts/slurm_one_node";
+  static inline const std::string kScript = pendular::test::source_folder() + "/scripts/slurm_one_node";
   ScratchFolder folder_;
 
  private:

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "places.h"
 #include "planted_run.h"
 #include "scratch.h"
 #include "viz/ticks.h"
@@ -151,7 +152,7 @@ TEST_F(Scene, TheCutTakesAwayTheHalfTowardsTheCamera) {
 TEST_F(Scene, LooksLikeTheKeptPicture) {
   const Image image = draw(viz::view_named("shear_strain"), last_);
   vtkNew<vtkPNGReader> reader;
-  const fs::path kept = fs::path(PENDULAR_SOURCE_DIR) / "tests/viz/shear_strain_16x16.png";
+  const fs::path kept = fs::path(pendular::test::source_folder()) / "tests/viz/shear_strain_16x16.png";
   reader->SetFileName(kept.c_str());
   reader->Update();
   ASSERT_EQ(reader->GetOutput()->GetNumberOfPoints(), 256);
