@@ -19,9 +19,14 @@
 #include "packing/generate.h"
 
 namespace pendular {
+
+namespace dem_core {
+using namespace HWY_NAMESPACE;  // of the instruction set that this file is compiled for
+}
+
 namespace {
 
-using namespace HWY_NAMESPACE;  // of the instruction set that this file is compiled for
+namespace hn = hwy::HWY_NAMESPACE;
 
 struct LanesBead {
   dem_core::Triple<dem_core::Lanes> position, velocity, spin, force, torque;
@@ -53,7 +58,7 @@ void advance(const dem_core::Pair& listed, LanesPair& pair, LanesBead& i, LanesB
   const dem_core::PairAction<dem_core::Lanes> action =
       advance_pair<true>(seen, motion, data, law, {false, false, false}, pair.memory);
   const dem_core::LaneMask breaking =
-      both(data.kn > all(0.0), dem_core::breaks(seen.gap, pair.memory.bond_slip, data));
+      both(data.kn > all(0.0), dem_core::HWY_NAMESPACE::breaks(seen.gap, pair.memory.bond_slip, data));
   pair.kn = select(breaking, all(0.0), pair.kn), pair.kt = select(breaking, all(0.0), pair.kt);
   const dem_core::Lanes half_gap = all(0.5) * seen.gap;
   i.force = i.force + action.force, j.force = j.force - action.force;

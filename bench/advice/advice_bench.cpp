@@ -12,14 +12,13 @@
 #include <algorithm>
 #include <iostream>
 
+#include "bench/stored_bank.h"
 #include "diagnosis/advice/next_experiments.h"
-#include "diagnosis/bank/bank.h"
 #include "diagnosis/experiment/further_measurements.h"
 #include "diagnosis/inference/calibration.h"
 #include "diagnosis/inference/judgement.h"
 #include "diagnosis/thresholds.h"
 #include "effects/list.h"
-#include "sweep/store.h"
 
 namespace {
 
@@ -37,23 +36,9 @@ struct State {
 
 class Bench {
  public:
-  Bench(Experiment curve, const fs::path& store) : curve_(std::move(curve)), beads_(store / "measured") {
-    BankOptions options;
-    options.runs = 0;
-    plan_ = plan_bank(curve_, options, beads_);
-    tests_.resize(plan_.points.size(), SimulatedTests(plan_.conditions.size()));
-    const sweep::Store runs(store);
-    for (std::size_t k = 0; k < plan_.runs.size(); ++k) {
-      const auto& [point, condition] = plan_.runs[k];
-      const std::string hash = sweep::content_hash(plan_.requests[k]);
-      sweep::RunOutcome outcome;
-      outcome.hash = hash, outcome.folder = runs.run_folder(hash);
-      outcome.status =
-          fs::exists(outcome.folder / "result.json") ? sweep::RunStatus::done : sweep::RunStatus::waiting;
-      tests_[point][condition] = read_outcome(outcome, condition, "", plan_.points[point].changes, ledger_);
-    }
+  Bench(Experiment curve, const fs::path& store) : curve_(std::move(curve)), bank_(curve_, store) {
     for (const auto& effect : effects::all_effects())
-      if (!plan_.absent.contains(effect.id)) effects_.insert(effect.id);
+      if (!bank_.plan.absent.contains(effect.id)) effects_.insert(effect.id);
   }
 
   State start() const { return {curve_, {}, ""}; }
@@ -86,7 +71,7 @@ class Bench {
 
   /// The state after the best measurement, or the worst that is ranked; nothing where none is.
   std::optional<State> advised(const State& state, const Question& question, bool best) {
-    const NextSteps steps = next_steps(hand(state), question, ledger_);
+    const NextSteps steps = next_steps(hand(state), question, bank_.ledger);
     std::vector<NextExperiment> ranked;
     for (const auto& next : steps.experiments)
       if (next.outlook.cases > 0) ranked.push_back(next);
@@ -109,14 +94,11 @@ class Bench {
   static constexpr double kConfidence = 0.95;
 
   BankInHand hand(const State& state) const {
-    return {state.experiment, plan_, tests_, beads_, nullptr, {}, kConfidence, 1};
+    return {state.experiment, bank_.plan, bank_.tests, bank_.beads, nullptr, {}, kConfidence, 1};
   }
 
   Experiment curve_;
-  fs::path beads_;
-  BankPlan plan_;
-  std::vector<SimulatedTests> tests_;
-  std::vector<LedgerRow> ledger_;
+  bench::StoredBank bank_;
   std::set<std::string> effects_;
   std::map<std::string, std::vector<Replayed>> kept_;
 };

@@ -1,11 +1,12 @@
 #include "diagnosis/inference/reduced_space.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/inference/gap.h"
 #include "diagnosis/thresholds.h"
 
 namespace pendular::diagnosis {
@@ -36,7 +37,8 @@ double in_fresh_directions(const Eigen::MatrixXd& rows) {
 }  // namespace
 
 ReducedSpace::ReducedSpace(const Gap& gap, const std::vector<Signature>& signatures)
-    : factor_(gap.covariance + gap.believed * gap.believed.transpose()),
+    : factor_(whole_covariance(gap)),
+      precision_(factor_.solve(Eigen::MatrixXd::Identity(factor_.rows(), factor_.rows()))),
       dof_(gap.dof > 0.0 ? std::min(gap.dof, kThresholds.most_dof) : 0.0) {
   find_directions(signatures);
   dimensions_ = static_cast<double>(factor_.rows() - size());
@@ -48,10 +50,9 @@ void ReducedSpace::reduce(Response& response) const {
   for (auto& power : response.powers) power = reduced(power);
   if (response.early.size() > 0) response.early = reduced(response.early);
   if (response.draws.size() == 0) return;
-  const Eigen::MatrixXd half = factor_.matrixL().solve(response.draws);
-  const Eigen::MatrixXd whole = factor_.matrixL().solve(half.transpose());
-  response.draws = directions_.transpose() * whole * directions_;
-  response.drawn_outside = std::max(0.0, whole.trace() - response.draws.trace());
+  const double whole = response.draws.cwiseProduct(precision_).sum();  // the trace, in units of the noise
+  response.draws = reducer_ * response.draws * reducer_.transpose();
+  response.drawn_outside = std::max(0.0, whole - response.draws.trace());
   if (response.missed.rows() < kLeastRows) return;
   Eigen::MatrixXd rows(response.missed.rows(), size());
   for (Eigen::Index r = 0; r < rows.rows(); ++r)
@@ -115,16 +116,24 @@ void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {
         if (length > 0.0) columns.push_back(response * std::min(1.0, kThresholds.longest / length));
       }
   const Eigen::Index features = factor_.rows();
-  directions_ = Eigen::MatrixXd::Identity(features, features);
-  if (columns.empty() || features <= 2) return;
-  Eigen::MatrixXd all(features, static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k) all.col(static_cast<Eigen::Index>(k)) = columns[k];
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(all, Eigen::ComputeThinU);
-  Eigen::Index kept = 0;
-  while (kept < std::min(kMostDirections, svd.singularValues().size()) &&
-         svd.singularValues()[kept] > kThresholds.least_direction)
-    ++kept;
-  if (kept > 0) directions_ = svd.matrixU().leftCols(kept);
+  Eigen::MatrixXd directions = Eigen::MatrixXd::Identity(features, features);
+  if (!columns.empty() && features > 2) {
+    Eigen::MatrixXd all(features, static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t k = 0; k < columns.size(); ++k) all.col(static_cast<Eigen::Index>(k)) = columns[k];
+    // Singular values that count are a hundredth of the largest and more: their squares are exact enough.
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> squares(all.transpose() * all);
+    Eigen::Index kept = 0;
+    const Eigen::Index most = std::min({kMostDirections, features, all.cols()});
+    while (kept < most &&
+           squares.eigenvalues()[all.cols() - 1 - kept] > std::pow(kThresholds.least_direction, 2))
+      ++kept;
+    if (kept > 0) {
+      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(
+          all * squares.eigenvectors().rightCols(kept).rowwise().reverse());
+      directions = qr.householderQ() * Eigen::MatrixXd::Identity(features, kept);
+    }
+  }
+  reducer_ = factor_.matrixU().solve(directions).transpose();
 }
 
 // What known runs leave outside is a multiple of χ², of their mean and variance; without runs, χ² itself.

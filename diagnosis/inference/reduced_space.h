@@ -44,10 +44,10 @@ class ReducedSpace {
  public:
   ReducedSpace(const Gap& gap, const std::vector<Signature>& signatures);
 
-  Eigen::VectorXd reduced(const Eigen::VectorXd& v) const { return directions_.transpose() * whiten(v); }
+  Eigen::VectorXd reduced(const Eigen::VectorXd& v) const { return reducer_ * v; }
   Signature reduced(Signature signature) const;
   ReducedGap gap(const Eigen::VectorXd& values) const { return {reduced(values), outside(values)}; }
-  Eigen::Index size() const { return directions_.cols(); }
+  Eigen::Index size() const { return reducer_.rows(); }
   /// The square of what is outside the span.
   double outside(const Eigen::VectorXd& v) const;
 
@@ -68,10 +68,11 @@ class ReducedSpace {
   void learn_outside(const std::vector<double>& known);
   double log_outside(double outside, double factor) const;
 
-  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;  // of the noise's covariance
+  Eigen::MatrixXd precision_;           // its inverse
   double dof_;
-  Eigen::MatrixXd directions_;  // orthonormal columns in the whitened features
-  double dimensions_ = 0.0;     // outside the span
+  Eigen::MatrixXd reducer_;  // whitens, and takes what is along orthonormal directions
+  double dimensions_ = 0.0;  // outside the span
   double outside_scale_ = 1.0, outside_dof_ = 1.0;
   double log_chi_ = 0.0;  // normalisation of the density outside
 };

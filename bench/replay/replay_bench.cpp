@@ -1,0 +1,78 @@
+// Every run of a bank diagnosed as if it had been measured (docs/diagnose.md, step 8): a row each, and what
+// the replay promises and takes.
+//
+//   replay_bench EXPERIMENT.toml STORE > replayed.csv
+//
+// Its runs must be in STORE (pendular diagnose). Where an effect was left out of the library, `unknown` is
+// right.
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <iostream>
+
+#include "bench/stored_bank.h"
+#include "diagnosis/inference/calibration.h"
+#include "diagnosis/inference/judgement.h"
+#include "diagnosis/inference/problem.h"
+
+namespace {
+
+using namespace pendular;
+using namespace pendular::diagnosis;
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double probability(const std::vector<Hypothesis>& said, const std::string& id) {
+  for (const auto& h : said)
+    if (h.id == id) return h.probability;
+  return 0.0;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count < 3) {
+    std::cerr << "replay_bench EXPERIMENT.toml STORE\n";
+    return 2;
+  }
+  const Experiment experiment = read_experiment(words[1]);
+  const bench::StoredBank bank(experiment, words[2]);
+  double start = seconds();
+  const Problem problem = problem_of(experiment, bank.plan, bank.tests);
+  std::cerr << fmt::format("{} features, problem in {:.1f} s\n", problem.readings.observed.features.size(),
+                           seconds() - start);
+  const Rules rules;
+  std::vector<Replayed> replayed;
+  for (const LeftOut left_out : {LeftOut::nothing, LeftOut::effects}) {
+    start = seconds();
+    replayed = replay(experiment, bank.plan, *problem.features, rules.priors, rules.draws, left_out);
+    std::cerr << fmt::format("{} runs replayed in {:.1f} s\n", replayed.size(), seconds() - start);
+  }
+  start = seconds();
+  const Promise promise = promise_of(replayed, rules.confidence);
+  std::cerr << fmt::format(
+      "promised in {:.1f} s: in the set {:.3f} at {:.2f}, theta {:.2f}, false alarms {:.3f}, temperature {}, "
+      "for unknown "
+      "{}, gate {:.3f}; of {} left out {} flagged, {} misnamed\n",
+      seconds() - start, promise.in_set, promise.set_size, promise.theta_held, promise.false_alarms,
+      promise.correction.temperature, promise.correction.for_unknown, promise.correction.gate,
+      promise.outside.cases, promise.outside.flagged, promise.outside.misnamed);
+  for (const auto& bin : promise.reliability)
+    std::cerr << fmt::format("said {:.2f} came true {:.2f} of {}\n", bin.said, bin.came_true, bin.cases);
+  std::cout << "member,truth,theta,left_out,top,p_top,p_truth,p_none,p_unknown,chi_squared_top,set\n";
+  for (const auto& one : replayed) {
+    const auto said = corrected(one.said, promise.correction);
+    const auto set = set_of(said, promise.correction);
+    std::string ids;
+    for (const auto& id : set.ids) ids += (ids.empty() ? "" : " ") + id;
+    const double theta = one.truth.empty() ? 0.0 : one.truth.begin()->second;
+    const auto& top = said.front();
+    std::cout << fmt::format("{},{},{:.6g},{},{},{:.4f},{:.4g},{:.4g},{:.4g},{:.2f},{}\n", one.member,
+                             truth_of(one), theta, one.left_out, top.id, top.probability,
+                             probability(said, truth_of(one)), probability(said, "none"),
+                             probability(said, "unknown"), top.chi_squared, ids);
+  }
+}

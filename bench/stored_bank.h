@@ -1,0 +1,38 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "diagnosis/bank/bank.h"
+#include "diagnosis/bank/bank_tests.h"
+#include "sweep/store.h"
+
+namespace pendular::bench {
+
+/// The first pass of a bank, and what of it a store has.
+struct StoredBank {
+  fs::path beads;
+  diagnosis::BankPlan plan;
+  std::vector<diagnosis::SimulatedTests> tests;
+  std::vector<diagnosis::LedgerRow> ledger;
+
+  StoredBank(const diagnosis::Experiment& experiment, const fs::path& store) : beads(store / "measured") {
+    diagnosis::BankOptions options;
+    options.runs = 0;
+    plan = diagnosis::plan_bank(experiment, options, beads);
+    tests.resize(plan.points.size(), diagnosis::SimulatedTests(plan.conditions.size()));
+    const sweep::Store runs(store);
+    for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+      const auto& [point, condition] = plan.runs[k];
+      const std::string hash = sweep::content_hash(plan.requests[k]);
+      sweep::RunOutcome outcome;
+      outcome.hash = hash, outcome.folder = runs.run_folder(hash);
+      outcome.status =
+          fs::exists(outcome.folder / "result.json") ? sweep::RunStatus::done : sweep::RunStatus::waiting;
+      tests[point][condition] =
+          diagnosis::read_outcome(outcome, condition, "", plan.points[point].changes, ledger);
+    }
+  }
+};
+
+}  // namespace pendular::bench
