@@ -123,6 +123,9 @@ std::string trust(const Diagnosis& diagnosis) {
   if (p.cases > 0)
     text += fmt::format("In {} replayed runs the set held the truth in {}, with {:.1f} members on average.",
                         p.cases, percent(p.in_set), p.set_size);
+  if (p.outside.cases > 0)
+    text += fmt::format(" Of {} runs whose effect was left out of the library {} were flagged as unknown.",
+                        p.outside.cases, p.outside.flagged);
   std::vector<std::string> hidden;
   for (const auto& one : diagnosis.unseen)
     hidden.push_back(fmt::format("{} up to {}", plain_name(one.effect), limit_in_words(one)));

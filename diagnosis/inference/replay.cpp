@@ -72,10 +72,14 @@ std::vector<std::size_t> runs_to_leave_out(const BankPlan& plan) {
   return chosen;
 }
 
-Comparison without(Comparison learnt, const std::string& effect) {
+/// Diagnoses a run of one effect by a library that lacks the effect.
+Replayed without_its_effect(const Replayed& run, const Eigen::VectorXd& observed, Comparison learnt,
+                            const Priors& priors) {
+  const std::string effect = run.truth.begin()->first;
   std::erase_if(learnt.signatures, [&](const Signature& one) { return one.id == effect; });
   std::erase_if(learnt.together, [&](const Together& one) { return one.a == effect || one.b == effect; });
-  return learnt;
+  const Weigher weigher(learnt.gap, learnt.signatures, learnt.together, priors, Pairs::run);
+  return {run.member, run.truth, weigher({observed}, kNegligible).front(), effect};
 }
 
 std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan& plan,
@@ -105,17 +109,11 @@ std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan
   for (std::size_t k = 0; k < found.size(); ++k) found[k].said = std::move(said[k]);
   for (const std::size_t at : left_out) {
     const DesignPoint& point = plan.points[at];
-    if (point.member != member) continue;
-    const auto one = std::find_if(found.begin(), found.end(),
-                                  [&](const Replayed& run) { return run.truth == point.changes; });
-    if (one == found.end()) continue;
-    const Comparison less = without(learnt, point.id);
-    if (less.signatures.empty()) continue;
-    const auto& values = observed[static_cast<std::size_t>(one - found.begin())];
-    Replayed outside{member, point.changes, {}, point.id};
-    outside.said =
-        Weigher(less.gap, less.signatures, less.together, priors, Pairs::run)({values}, kNegligible).front();
-    found.push_back(std::move(outside));
+    const auto run = std::find_if(found.begin(), found.end(),
+                                  [&](const Replayed& one) { return one.truth == point.changes; });
+    if (point.member == member && run != found.end() && learnt.signatures.size() > 1)
+      found.push_back(
+          without_its_effect(*run, observed[static_cast<std::size_t>(run - found.begin())], learnt, priors));
   }
   return found;
 }
