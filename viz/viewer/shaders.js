@@ -21,7 +21,7 @@ void main() {
   reach = radius * swell;
   at = corner;
   grey = value;
-  bead = gl_InstanceID;
+  bead = gl_VertexID / 4;
   gl_Position = vec4((eye.xy + reach * corner + shift) * scale, -eye.z / depth, 1.0);
 }`;
 

@@ -29,25 +29,45 @@ function program(gl, vertex, fragment) {
   return {made, uniform};
 }
 
-/// Instances: one buffer for the corners of a quadrilateral, others that advance once a bead or bond.
-function instances(gl, layout) {
+/// Quadrilaterals of four vertices each: a buffer of their corners, others of what belongs to each bead or bond.
+/// Not instances, which are drawn one by one in software, and slowly elsewhere where they are so small.
+function quads(gl, layout) {
   const array = gl.createVertexArray(), buffers = layout.map(() => gl.createBuffer());
+  const corners = gl.createBuffer(), order = gl.createBuffer();
+  let room = 0;
   gl.bindVertexArray(array);
-  gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-  gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), gl.STATIC_DRAW);
-  gl.enableVertexAttribArray(0);
-  gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
-  layout.forEach(({components, type, normalised}, k) => {
-    gl.bindBuffer(gl.ARRAY_BUFFER, buffers[k]);
-    gl.enableVertexAttribArray(k + 1);
-    gl.vertexAttribPointer(k + 1, components, type, normalised, 0, 0);
-    gl.vertexAttribDivisor(k + 1, 1);
+  [{components: 2, type: gl.BYTE}, ...layout].forEach(({components, type, normalised = false}, k) => {
+    gl.bindBuffer(gl.ARRAY_BUFFER, k ? buffers[k - 1] : corners);
+    gl.enableVertexAttribArray(k);
+    gl.vertexAttribPointer(k, components, type, normalised, 0, 0);
   });
-  const fill = (k, data) => {
-    gl.bindBuffer(gl.ARRAY_BUFFER, buffers[k]);
-    gl.bufferData(gl.ARRAY_BUFFER, data, gl.DYNAMIC_DRAW);
+  const make_room = count => {
+    if (count <= room) return;
+    room = count;
+    const at = new Int8Array(8 * count), vertices = new Uint32Array(6 * count);
+    for (let k = 0; k < count; ++k) {
+      at.set([-1, -1, 1, -1, -1, 1, 1, 1], 8 * k);
+      [0, 1, 2, 2, 1, 3].forEach((corner, n) => vertices[6 * k + n] = 4 * k + corner);
+    }
+    gl.bindVertexArray(array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, corners);
+    gl.bufferData(gl.ARRAY_BUFFER, at, gl.STATIC_DRAW);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, order);
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, vertices, gl.STATIC_DRAW);
   };
-  return {array, fill};
+  const fill = (k, data) => {
+    const {components} = layout[k], four = new data.constructor(4 * data.length);
+    for (let n = 0; n < four.length; ++n)
+      four[n] = data[components * Math.floor(n / components / 4) + n % components];
+    make_room(data.length / components);
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffers[k]);
+    gl.bufferData(gl.ARRAY_BUFFER, four, gl.DYNAMIC_DRAW);
+  };
+  const draw = count => {
+    gl.bindVertexArray(array);
+    gl.drawElements(gl.TRIANGLES, 6 * count, gl.UNSIGNED_INT, 0);
+  };
+  return {fill, draw};
 }
 
 /// The numbers of a moment, unpacked when it is first shown.
@@ -79,8 +99,7 @@ class Specimen {
     this.diameters = new Float32Array(bytesOf(data.diameters));
     this.maps = {};
     for (const [name, text] of Object.entries(data.maps)) this.maps[name] = new Uint8Array(bytesOf(text));
-    this.middle = data.low.map((v, k) => v + data.size[k] / 2);
-    this.radius = Math.hypot(...data.size) / 2 + Math.max(...this.diameters);
+    this.measure();
     this.moment = data.moments.length - 1;
     this.field = 0;
     this.pair_field = -1;
@@ -99,10 +118,29 @@ class Specimen {
     this.refill();
   }
 
+  /// Middle and size of the specimen as it is at first: beads that have flown off do not make it small. `depth` has all.
+  measure() {
+    const {low, size, moments} = this.data, {centres} = unpacked(moments[0]), widest = Math.max(...this.diameters);
+    this.widest = widest;
+    const ends = [0, 1, 2].map(axis => {
+      let least = 65535, most = 0;
+      for (let k = axis; k < centres.length; k += 3) {
+        least = Math.min(least, centres[k]);
+        most = Math.max(most, centres[k]);
+      }
+      return [least, most].map(v => low[axis] + v / 65535 * size[axis]);
+    });
+    this.middle = ends.map(([least, most]) => (least + most) / 2);
+    this.size = ends.map(([least, most]) => most - least);
+    this.radius = Math.hypot(...this.size) / 2 + widest;
+    const farthest = this.middle.map((v, k) => Math.max(v - low[k], low[k] + size[k] - v));
+    this.depth = Math.hypot(...farthest) + widest;
+  }
+
   reset() {
     this.azimuth = 0.5;
     this.elevation = 0.3;
-    this.zoom = 1.25;
+    this.zoom = 1.1;
     this.shift = [0, 0];
   }
 
@@ -111,12 +149,12 @@ class Specimen {
     this.beads = program(gl, beadVertex, beadFragment);
     this.bonds = program(gl, bondVertex, bondFragment);
     const half = gl.HALF_FLOAT, whole = gl.UNSIGNED_SHORT;
-    this.bead_data = instances(gl, [
+    this.bead_data = quads(gl, [
       {components: 3, type: whole, normalised: true}, {components: 1, type: gl.FLOAT},
       {components: 1, type: half}
     ]);
     this.bead_data.fill(1, this.diameters.map(d => d / 2));
-    this.bond_data = instances(gl, [
+    this.bond_data = quads(gl, [
       {components: 3, type: whole, normalised: true}, {components: 3, type: whole, normalised: true},
       {components: 1, type: half}, {components: 1, type: gl.UNSIGNED_BYTE}
     ]);
@@ -137,7 +175,8 @@ class Specimen {
     this.bead_data.fill(0, now.centres);
     this.bead_data.fill(2, now.values[this.field]);
     const visible = [];
-    for (let k = 0; k < now.states.length; ++k) if (this.states[now.states[k]]) visible.push(k);
+    for (let k = 0; k < now.states.length; ++k)
+      if (this.states[now.states[k]] && (now.states[k] != 1 || this.near(k))) visible.push(k);
     const ends = [0, 1].map(end => {
       const at = new Uint16Array(3 * visible.length);
       visible.forEach((pair, k) => {
@@ -154,6 +193,12 @@ class Specimen {
     this.bonds_shown = visible.length;
     say(this);
     this.ask();
+  }
+
+  /// Whether the ends of a bond are still neighbours: lines to beads that have flown off say nothing.
+  near(pair) {
+    const [a, b] = [0, 1].map(end => this.centre(this.pairs[2 * pair + end]));
+    return Math.hypot(...a.map((v, k) => v - b[k])) < 3 * this.widest;
   }
 
   /// Draws once before the browser's next picture, however much changes until then. Where pictures come too
@@ -183,7 +228,7 @@ class Specimen {
     if (this.section == "none") return [0, 0, 0, 1];
     const normal = {x: [1, 0, 0], y: [0, -1, 0], z: [0, 0, 1], eye: [0, 0, 1]}[this.section];
     const reach = this.section == "eye" ? this.radius
-                                        : this.data.size["xyz".indexOf(this.section)] / 2 + this.diameters[0] / 2;
+                                        : this.size["xyz".indexOf(this.section)] / 2 + this.diameters[0] / 2;
     return [...(this.section == "eye" ? normal : product(rows, normal)), (2 * this.cut_at - 1) * reach];
   }
 
@@ -203,7 +248,7 @@ class Specimen {
       gl.uniformMatrix3fv(uniform.turn, true, rows.flat());
       gl.uniform2fv(uniform.scale, scale);
       gl.uniform2fv(uniform.shift, this.shift);
-      gl.uniform1f(uniform.depth, 2 * this.radius);
+      gl.uniform1f(uniform.depth, this.depth);
       gl.uniform4fv(uniform.cut, cut);
       gl.uniform1f(uniform.unit, field ? field.unit_of_value : 1);
       gl.uniform2fv(uniform.range, range);
@@ -214,16 +259,14 @@ class Specimen {
       use(this.beads, this.data.fields[this.field], this.ranges[this.field]);
       gl.uniform1f(this.beads.uniform.swell, this.swell);
       gl.uniform1i(this.beads.uniform.chosen, this.chosen);
-      gl.bindVertexArray(this.bead_data.array);
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.data.ids.length);
+      this.bead_data.draw(this.data.ids.length);
     }
     if (this.bonds_shown > 0) {
       const field = this.data.pair_fields[this.pair_field];
       use(this.bonds, field, field ? [field.low, field.high] : [0, 1]);
       gl.uniform1f(this.bonds.uniform.width, 0.08 * this.diameters[0]);
       gl.uniform1i(this.bonds.uniform.by_value, field ? 1 : 0);
-      gl.bindVertexArray(this.bond_data.array);
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.bonds_shown);
+      this.bond_data.draw(this.bonds_shown);
     }
   }
 
