@@ -169,7 +169,6 @@ ordered_json promise_of(const Diagnosis& d) {
           {"outside",
            {{"cases", p.outside.cases}, {"flagged", p.outside.flagged}, {"misnamed", p.outside.misnamed}}},
           {"temperature", number(p.correction.temperature)},
-          {"for_unknown", number(p.correction.for_unknown)},
           {"reliability", reliability},
           {"effects", effects}};
 }

@@ -55,11 +55,10 @@ int main(int count, char** words) {
   const Promise promise = promise_of(replayed, rules.confidence);
   std::cerr << fmt::format(
       "promised in {:.1f} s: in the set {:.3f} at {:.2f}, theta {:.2f}, false alarms {:.3f}, temperature {}, "
-      "for unknown "
-      "{}, gate {:.3f}; of {} left out {} flagged, {} misnamed\n",
+      "gate {:.3f}; of {} left out {} flagged, {} misnamed\n",
       seconds() - start, promise.in_set, promise.set_size, promise.theta_held, promise.false_alarms,
-      promise.correction.temperature, promise.correction.for_unknown, promise.correction.gate,
-      promise.outside.cases, promise.outside.flagged, promise.outside.misnamed);
+      promise.correction.temperature, promise.correction.gate, promise.outside.cases, promise.outside.flagged,
+      promise.outside.misnamed);
   for (const auto& bin : promise.reliability)
     std::cerr << fmt::format("said {:.2f} came true {:.2f} of {}\n", bin.said, bin.came_true, bin.cases);
   std::cout << "member,truth,theta,left_out,top,p_top,p_truth,p_none,p_unknown,chi_squared_top,set\n";

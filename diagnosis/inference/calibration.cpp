@@ -1,11 +1,9 @@
 #include "diagnosis/inference/calibration.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
-#include <optional>
 #include <set>
 
 #include "diagnosis/inference/log_sum.h"
@@ -16,10 +14,7 @@ namespace {
 
 constexpr double kTemperatures[] = {1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0};
 constexpr double kLeastProbability = 1e-9;  // that a wrong answer is charged with
-constexpr double kNoProbability = 1e-300;
-constexpr double kMostForUnknown = 4.0, kStepForUnknown = 0.5;  // logarithms of evidence
-constexpr std::size_t kLeastOutside = 12;  // runs from which the evidence of `unknown` is corrected
-constexpr double kConfident = 0.9;         // probability of what is said without doubt
+constexpr double kConfident = 0.9;          // probability of what is said without doubt
 constexpr double kBins[] = {0.0, 0.4, 0.6, 0.8, 0.9, 1.0};
 constexpr const char* kNone = "none";
 constexpr const char* kUnknown = "unknown";
@@ -67,71 +62,26 @@ double needed_widening(const Magnitude& magnitude, double theta) {
   return std::fabs(theta - magnitude.mean) / std::max(room, 1e-12);
 }
 
-std::vector<Hypothesis> tempered(const std::vector<Hypothesis>& said, const Correction& found) {
+std::vector<Hypothesis> tempered(const std::vector<Hypothesis>& said, double temperature) {
   Correction correction;
-  correction.temperature = found.temperature, correction.for_unknown = found.for_unknown;
-  correction.widening_of_others = 1.0;
+  correction.temperature = temperature, correction.widening_of_others = 1.0;
   return corrected(said, correction);
 }
 
 using Cases = std::vector<const Replayed*>;
 
-/// Replayed runs: those that an explanation of the library is right for, and those whose effect it lacks.
-struct Learning {
-  Cases known, outside;
-
-  /// Of a run outside, where each known one has 1: together they have the prior share of `unknown`.
-  double weight_outside() const {
-    const double share = Priors{}.unknown;
-    return share / (1.0 - share) * static_cast<double>(known.size()) / static_cast<double>(outside.size());
-  }
-};
-
-/// What a run was said to be, as a correction changes it.
-struct SaidLogs {
-  std::vector<double> weights, evidences;  // logarithms
-  std::optional<std::size_t> truth, unknown;
-
-  explicit SaidLogs(const Replayed& one) {
-    const std::string right = truth_of(one);
-    for (std::size_t k = 0; k < one.said.size(); ++k) {
-      weights.push_back(std::log(std::max(kNoProbability, one.said[k].probability)));
-      evidences.push_back(one.said[k].log_evidence);
-      if (one.said[k].id == right) truth = k;
-      if (one.said[k].id == kUnknown) unknown = k;
+double temperature_of(const Cases& cases) {
+  double best = 1.0, least = INFINITY;
+  for (const double temperature : kTemperatures) {
+    double loss = 0.0;
+    for (const auto* one : cases) {
+      const auto said = tempered(one->said, temperature);
+      const Hypothesis* truth = said_of(said, truth_of(*one));
+      loss -= std::log(std::max(kLeastProbability, truth ? truth->probability : 0.0));
     }
+    if (loss < least) least = loss, best = temperature;
   }
-
-  std::vector<double> corrected(double temperature, double for_unknown) const {
-    std::vector<double> logs = weights;
-    for (std::size_t k = 0; k < logs.size(); ++k) logs[k] += evidences[k] * (1.0 / temperature - 1.0);
-    if (unknown) logs[*unknown] += for_unknown;
-    return logs;
-  }
-
-  /// −ln of what the truth got.
-  double loss(double temperature, double for_unknown) const {
-    if (!truth) return -std::log(kLeastProbability);
-    const auto logs = corrected(temperature, for_unknown);
-    return std::min(-std::log(kLeastProbability), log_sum(logs) - logs[*truth]);
-  }
-};
-
-/// The temperature, and what is added for `unknown`, of least loss.
-void learn_probabilities(const Learning& cases, Correction& found) {
-  const bool outside = cases.outside.size() >= kLeastOutside;
-  std::vector<std::pair<SaidLogs, double>> weighed;
-  for (const auto* one : cases.known) weighed.emplace_back(*one, 1.0);
-  if (outside)
-    for (const auto* one : cases.outside) weighed.emplace_back(*one, cases.weight_outside());
-  double least = INFINITY;
-  for (const double temperature : kTemperatures)
-    for (double more = outside ? -kMostForUnknown : 0.0; more <= (outside ? kMostForUnknown : 0.0);
-         more += kStepForUnknown) {
-      double loss = 0.0;
-      for (const auto& [said, weight] : weighed) loss += weight * said.loss(temperature, more);
-      if (loss < least) least = loss, found.temperature = temperature, found.for_unknown = more;
-    }
+  return best;
 }
 
 /// Whether a set holds an answer.
@@ -256,14 +206,13 @@ void learn_magnitudes(const Cases& cases, Correction& found) {
   found.widening_of_limits = std::max(1.0, conformal(std::move(limits), kThresholds.of_limits));
 }
 
-Correction learn(const Learning& learning, double confidence) {
+Correction learn(const Cases& cases, double confidence) {
   Correction found;
-  learn_probabilities(learning, found);
-  const Cases& cases = learning.known;
+  found.temperature = temperature_of(cases);
   std::vector<std::vector<Hypothesis>> said;
   std::vector<double> alarms;
   for (const auto* one : cases) {
-    said.push_back(tempered(one->said, found));
+    said.push_back(tempered(one->said, found.temperature));
     alarms.push_back(said_of(said.back(), kUnknown)->probability);
   }
   found.gate = conformal(std::move(alarms), 1.0 - kThresholds.false_alarms);
@@ -274,50 +223,27 @@ Correction learn(const Learning& learning, double confidence) {
   return found;
 }
 
-/// Of the most probable explanations of replayed runs, by their probability.
-class Bins {
- public:
-  void count(const std::vector<Hypothesis>& said, const std::string& truth, double weight) {
-    const double top = said.front().probability;
-    const auto at =
-        static_cast<std::size_t>(std::upper_bound(kBins + 1, std::end(kBins) - 1, top) - kBins - 1);
-    bins_[at].said += weight * top, bins_[at].came_true += weight * (said.front().id == truth);
-    ++bins_[at].cases, weights_[at] += weight;
-  }
-
-  std::vector<Reliability> reliability() const {
-    std::vector<Reliability> found;
-    for (std::size_t k = 0; k < bins_.size(); ++k)
-      if (bins_[k].cases > 0)
-        found.push_back({bins_[k].said / weights_[k], bins_[k].came_true / weights_[k], bins_[k].cases});
-    return found;
-  }
-
- private:
-  std::array<Reliability, std::size(kBins) - 1> bins_;
-  std::array<double, std::size(kBins) - 1> weights_ = {};
-};
-
 /// Adds what a run whose effect was left out shows of corrections that did not see its member.
-void count_outside(const Replayed& one, const Correction& correction, double weight, Promise& promise,
-                   Bins& bins) {
+void count_outside(const Replayed& one, const Correction& correction, OutsideReplay& outside) {
   const auto said = corrected(one.said, correction);
-  ++promise.outside.cases;
-  promise.outside.flagged += holds(set_of(said, correction), kUnknown);
-  promise.outside.misnamed += said.front().id != kUnknown && said.front().probability > kConfident;
-  bins.count(said, kUnknown, weight);
+  ++outside.cases;
+  outside.flagged += holds(set_of(said, correction), kUnknown);
+  outside.misnamed += said.front().id != kUnknown && said.front().probability > kConfident;
 }
 
 /// Adds what one replayed run shows of corrections that did not see its member.
-void count(const Replayed& one, const Correction& correction, Promise& promise, Bins& bins,
-           double& magnitudes) {
+void count(const Replayed& one, const Correction& correction, Promise& promise,
+           std::vector<Reliability>& bins, double& magnitudes) {
   const auto said = corrected(one.said, correction);
   const AmbiguitySet set = set_of(said, correction);
   const std::string truth = truth_of(one);
   promise.in_set += right(set, truth, correction);
   promise.set_size += static_cast<double>(set.ids.size());
   promise.false_alarms += holds(set, kUnknown);
-  bins.count(said, truth, 1.0);
+  const double top = said.front().probability;
+  const auto bin =
+      static_cast<std::size_t>(std::upper_bound(kBins + 1, std::end(kBins) - 1, top) - kBins - 1);
+  bins[bin].said += top, bins[bin].came_true += said.front().id == truth, ++bins[bin].cases;
   if (one.truth.empty()) return;
   EffectReplay& effect = promise.effects[truth];
   ++effect.cases;
@@ -369,9 +295,8 @@ double upper_limit(const Magnitude& magnitude, const Correction& correction) {
 std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction) {
   std::vector<double> logs;
   for (const auto& h : said)
-    logs.push_back(std::log(std::max(kNoProbability, h.probability)) +
-                   h.log_evidence * (1.0 / correction.temperature - 1.0) +
-                   (h.id == kUnknown ? correction.for_unknown : 0.0));
+    logs.push_back(std::log(std::max(1e-300, h.probability)) +
+                   h.log_evidence * (1.0 / correction.temperature - 1.0));
   const double total = log_sum(logs);
   for (std::size_t k = 0; k < said.size(); ++k) {
     said[k].probability = std::exp(logs[k] - total);
@@ -416,34 +341,37 @@ Promise promise_of(const std::vector<Replayed>& replayed, double confidence) {
   Promise promise;
   promise.confidence = confidence;
   promise.correction.level = std::max(confidence, promise.correction.level);
-  Learning all;
+  Cases cases, outside;
   std::set<int> members;
   for (const auto& one : replayed) {
     // A pair whose runs are all of one member is not known where that member is left out.
     if (one.truth.size() > 1 && !said_of(one.said, truth_of(one))) continue;
-    (one.left_out.empty() ? all.known : all.outside).push_back(&one);
+    (one.left_out.empty() ? cases : outside).push_back(&one);
     members.insert(one.member);
   }
-  if (all.known.size() < kThresholds.least_cases || members.size() < 3) return promise;
-  promise.cases = all.known.size();
-  promise.correction = learn(all, confidence);
-  Bins bins;
+  if (cases.size() < kThresholds.least_cases || members.size() < 3) return promise;
+  promise.cases = cases.size();
+  promise.correction = learn(cases, confidence);
+  std::vector<Reliability> bins(std::size(kBins) - 1);
   double magnitudes = 0.0;
   for (const int member : members) {
-    const auto other = [&](const Replayed* one) { return one->member != member; };
-    Learning others;
-    std::copy_if(all.known.begin(), all.known.end(), std::back_inserter(others.known), other);
-    std::copy_if(all.outside.begin(), all.outside.end(), std::back_inserter(others.outside), other);
-    const Correction correction = learn(others, confidence);
-    for (const auto* one : all.known)
-      if (one->member == member) count(*one, correction, promise, bins, magnitudes);
-    for (const auto* one : all.outside)
-      if (one->member == member) count_outside(*one, correction, all.weight_outside(), promise, bins);
+    Cases others;
+    std::copy_if(cases.begin(), cases.end(), std::back_inserter(others),
+                 [&](const Replayed* one) { return one->member != member; });
+    const Correction without = learn(others, confidence);
+    for (const auto* one : cases)
+      if (one->member == member) count(*one, without, promise, bins, magnitudes);
+    for (const auto* one : outside)
+      if (one->member == member) count_outside(*one, without, promise.outside);
   }
-  const double n = static_cast<double>(all.known.size());
+  const double n = static_cast<double>(cases.size());
   promise.in_set /= n, promise.set_size /= n, promise.false_alarms /= n;
   if (magnitudes > 0.0) promise.theta_held /= magnitudes, promise.limits_held /= magnitudes;
-  promise.reliability = bins.reliability();
+  for (auto& bin : bins) {
+    if (bin.cases == 0) continue;
+    bin.said /= static_cast<double>(bin.cases), bin.came_true /= static_cast<double>(bin.cases);
+    promise.reliability.push_back(bin);
+  }
   return promise;
 }
 

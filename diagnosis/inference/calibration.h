@@ -24,9 +24,8 @@ struct EffectReplay {
 /// How probabilities, sets and intervals are made to hold what they promise, learnt from a replay; as it
 /// stands, for a bank that is too small for one: wide.
 struct Correction {
-  double temperature = 2.0;  ///< by which logarithms of evidence are divided
-  double for_unknown = 0.0;  ///< added to the logarithm of the evidence of `unknown`, as it is weighed then
-  double level = 0.95;       ///< of the known explanations' probability, that a set holds
+  double temperature = 2.0;                   ///< by which logarithms of evidence are divided
+  double level = 0.95;                        ///< of the known explanations' probability, that a set holds
   std::map<std::string, double> levels = {};  ///< likewise, for explanations that need another one to get in
   double gate = 0.1;                          ///< probability of `unknown` from which it belongs to the set
   std::map<std::string, double> widening = {};  ///< of an effect's interval of θ
@@ -78,8 +77,7 @@ struct Promise {
 /// same rule at a false-alarm rate of 5 %; intervals of θ likewise at 90 %, those of effects with few runs
 /// drawn to what all need; upper limits at 95 %.
 ///
-/// Runs whose effect was left out have the prior share of `unknown` in what probabilities are learnt from,
-/// and in their reliability; of sets nothing is promised for them.
+/// Nothing is learnt from runs whose effect was left out; what becomes of them is counted.
 Promise promise_of(const std::vector<Replayed>& replayed, double confidence);
 
 /// Probabilities by tempered evidence, and intervals widened about their means.

@@ -132,46 +132,28 @@ TEST(Calibration, PairsThatWereRunAreInSetsAsOftenAsAsked) {
   EXPECT_GT(static_cast<double>(pair.in_set), 0.82 * static_cast<double>(pair.cases));
 }
 
-/// The same with runs outside the library, every seventh: nothing known is right, and `unknown` has the
-/// evidence of a reading of its own, told `lower` (a logarithm) than is right.
-std::vector<Replayed> with_outside(double lower, std::uint64_t seed) {
-  auto all = runs(1.0, 1.0, seed);
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    Replayed& one = all[k];
-    if (k % 7 == 0) one.left_out = "d", one.truth = {{"d", 1.0}};
-    double total = 0.0;
-    for (std::size_t h = 0; h < kIds.size(); ++h) {
-      auto& said = *std::find_if(one.said.begin(), one.said.end(),
-                                 [&](const Hypothesis& of) { return of.id == kIds[h]; });
-      const bool right = truth_of(one) == said.id;
-      const double seen = random_normal(seed + 50 + h, k) + (right ? 2.0 : 0.0);
-      said.log_evidence = 2.0 * seen - 2.0 - (said.id == "unknown" ? lower : 0.0);
-      said.probability = std::exp(said.log_evidence);
-      total += said.probability;
-    }
-    for (auto& h : one.said) h.probability /= total;
-    std::stable_sort(one.said.begin(), one.said.end(),
-                     [](const auto& a, const auto& b) { return a.probability > b.probability; });
+TEST(Calibration, RunsWhoseEffectWasLeftOutAreCountedAndTeachNothing) {
+  auto all = runs(1.0, 1.0, 11);
+  const Promise known = promise_of(all, 0.95);
+  // Ten that are said to be unknown for certain, ten that are said to be a, and ten that may be either.
+  for (int k = 0; k < 30; ++k) {
+    Replayed one{1 + k % kMembers, {{"d", 1.0}}, {}, "d"};
+    const double unknown = k < 10 ? 0.99 : k < 20 ? 0.001 : 0.5;
+    one.said = {{"unknown", std::log(unknown), unknown, {}, 0.0},
+                {"a", std::log(1.0 - unknown), 1.0 - unknown, {}, 0.0}};
+    EXPECT_EQ(truth_of(one), "unknown");
+    all.push_back(std::move(one));
   }
-  return all;
-}
-
-TEST(Calibration, EvidenceOfUnknownIsCorrectedByRunsWhoseEffectWasLeftOut) {
-  const Promise right = promise_of(with_outside(0.0, 11), 0.95);
-  const Promise low = promise_of(with_outside(3.0, 11), 0.95);
-  // Of 600 runs every seventh is outside; each explanation of the library is true of a seventh and a half.
-  EXPECT_NEAR(right.correction.for_unknown, 0.0, 0.5);
-  EXPECT_NEAR(low.correction.for_unknown, 3.0, 0.5);
-  EXPECT_EQ(low.outside.cases, 86u);
-  EXPECT_EQ(low.cases, static_cast<std::size_t>(kMembers * kOfMember) - 86);
-  EXPECT_GT(low.outside.flagged, 43u);  // at 5 % of false alarms a distance of 2 shows in 0.64
-  EXPECT_LT(low.outside.misnamed, 9u);
-  for (const auto& bin : low.reliability)
-    if (bin.cases >= 50) {
-      EXPECT_NEAR(bin.said, bin.came_true, 0.1);
-    }
-  // Without such runs nothing is added.
-  EXPECT_EQ(promise_of(runs(1.0, 1.0, 1), 0.95).correction.for_unknown, 0.0);
+  const Promise promise = promise_of(all, 0.95);
+  EXPECT_EQ(promise.outside.cases, 30u);
+  EXPECT_EQ(promise.outside.flagged, 20u);
+  EXPECT_EQ(promise.outside.misnamed, 10u);
+  EXPECT_EQ(promise.cases, known.cases);
+  EXPECT_EQ(promise.correction.temperature, known.correction.temperature);
+  EXPECT_EQ(promise.correction.gate, known.correction.gate);
+  EXPECT_EQ(promise.in_set, known.in_set);
+  EXPECT_EQ(promise.effects.count("d"), 0u);
+  EXPECT_EQ(known.outside.cases, 0u);
 }
 
 TEST(Calibration, TooFewRunsPromiseNothingAndWiden) {

@@ -66,8 +66,7 @@ TEST_F(Diagnose, NamesWhatWasWithheldAndClosesTheGap) {
   EXPECT_GT(best.probability, 0.5);
   // No other effect does the same.
   EXPECT_EQ(found.ambiguity_set, (std::vector<std::string>{"missing_bridges"}));
-  EXPECT_GT(found.set_probability,
-            0.8);  // unknown keeps about its prior share: others would explain what bridges do
+  EXPECT_GT(found.set_probability, 0.9);
   EXPECT_NEAR(best.magnitudes.front().mean, 0.12, 0.015);
   EXPECT_LT(best.magnitudes.front().interval_90.first, 0.12);
   EXPECT_GT(best.magnitudes.front().interval_90.second, 0.12);
