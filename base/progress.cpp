@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <mutex>
 #include <type_traits>
@@ -83,8 +84,9 @@ Progress::~Progress() {
 void Progress::update(double done, const std::string& note) {
   if (first_ < 0.0) first_ = done;
   const auto now = Clock::now();
+  const double share = std::clamp(done / total_, 0.0, 1.0);  // a last step may go a little beyond
   if (now >= next_told_) {
-    listened_ = told(&Listener::progress, what_, done / total_, note);
+    listened_ = told(&Listener::progress, what_, share, note);
     next_told_ = now + std::chrono::milliseconds(100);
   }
   if (listened_) return;
@@ -93,8 +95,8 @@ void Progress::update(double done, const std::string& note) {
   const double rate = (done - first_) / elapsed;
   // Nothing is known of the time left before the first step is done.
   const std::string left = rate > 0.0 ? fmt::format(", {} left", duration((total_ - done) / rate)) : "";
-  std::string line = fmt::format("{}: {:.0f} %, {} gone{}{}{}", what_, 100.0 * done / total_,
-                                 duration(elapsed), left, note.empty() ? "" : ", ", note);
+  std::string line = fmt::format("{}: {:.0f} %, {} gone{}{}{}", what_, 100.0 * share, duration(elapsed), left,
+                                 note.empty() ? "" : ", ", note);
   if (on_terminal()) {
     std::fputs(("\r\033[K" + line).c_str(), stderr);
     std::fflush(stderr);
