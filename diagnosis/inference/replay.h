@@ -24,10 +24,9 @@ enum class LeftOut { nothing, effects };
 /// is left out of all that is learnt. Members are replayed in parallel; what comes out does not depend on the
 /// number of threads. `draws`: of each run with an effect; of those without three times as many.
 ///
-/// LeftOut::effects: three runs of each effect, at a third and two thirds of the way to its largest magnitude
-/// and at that, are diagnosed once more by a library without the effect, whatever it shares with others:
-/// mechanisms of which nothing was learnt, as those outside the library are. Only those that the library
-/// would see (Weigher::absent).
+/// LeftOut::effects: three runs of each effect, at a third, two thirds and the end of their order by
+/// magnitude, are diagnosed once more by a library without the effect, as if it were a mechanism outside the
+/// library. Only those that the library would see (Weigher::absent).
 std::vector<Replayed> replay(const Experiment& experiment, const BankPlan& plan, const BankFeatures& features,
                              const Priors& priors, int draws, LeftOut left_out = LeftOut::nothing);
 
