@@ -20,7 +20,7 @@ namespace pendular::diagnosis {
 
 /// An explanation as it is reported.
 struct Explanation {
-  std::string id;  ///< an effect, "none", "unknown", or a pair "a+b"
+  std::string id;  ///< as Hypothesis::id
   double probability = 0.0;
   std::vector<Magnitude> magnitudes;  ///< one per effect
   std::vector<std::string> units;     ///< likewise

@@ -62,6 +62,7 @@ struct DiagnosisThresholds {
   double false_alarms = 0.05;   ///< of `unknown`, among replayed runs [definition]
   double of_theta = 0.9;        ///< runs whose interval holds their magnitude [definition]
   double of_limits = 0.95;      ///< runs whose upper limit holds [definition]
+  double strong = 10.0;         ///< ratio of evidences that is strong (Jeffreys) [definition]
   double by_slip = 0.05;        ///< level of the test that an effect is told from none [definition]
   double worth_of_all = 10.0;   ///< runs that what all effects need is worth beside an effect's own [replay]
   double unknown_alone = 0.95;  ///< probability from which `unknown` is the only member [development]

@@ -37,6 +37,11 @@ std::string cause(const Diagnosis& diagnosis) {
   if (best.id == "unknown")
     return fmt::format("The cause is not known: no effect of the library explains the gap, probability {}{}.",
                        probability, rest.empty() ? "" : "; not excluded: " + joined(rest, kListed));
+  if (best.id == kOtherPairs)
+    return fmt::format(
+        "The cause is not known: two effects at once explain the gap best, probability {}, but no run has "
+        "both (--runs){}.",
+        probability, rest.empty() ? "" : "; not excluded: " + joined(rest, kListed));
   if (rest.empty()) return fmt::format("The cause is {}, probability {}.", in_words(best), probability);
   if (best.probability >= kThresholds.likely)
     return fmt::format("The most probable cause is {}, probability {}; not excluded: {}.", in_words(best),
@@ -56,7 +61,8 @@ std::string what_next(const Diagnosis& diagnosis) {
     return fmt::format(" Next: {} – {}; it is expected to {}.", first.observation, first.why,
                        outlook_in_words(first.outlook, next.now));
   }
-  if (diagnosis.ambiguity_set.size() < 2 && diagnosis.explanations.front().id != "unknown")
+  const std::string& best = diagnosis.explanations.front().id;
+  if (diagnosis.ambiguity_set.size() < 2 && best != "unknown" && best != kOtherPairs)
     return " No further measurement is needed.";
   return next.now.cases == 0 || !next.experiments.empty()
              ? " What to measure next cannot be told from these runs."

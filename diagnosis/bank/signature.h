@@ -54,6 +54,7 @@ struct Together {
   std::string a, b;
   double theta_a = 0.0, theta_b = 0.0;
   Eigen::VectorXd beyond;
+  Eigen::MatrixXd error = {};  ///< covariance of that, from few runs; empty: none
 };
 
 /// A gap to be explained. Features are logarithms of ratios or differences of strains; all in one order.

@@ -259,13 +259,16 @@ void count(const Replayed& one, const Correction& correction, Promise& promise,
 }
 
 /// Whether something stands in the set for an unseen explanation: none, or an effect of a pair that is more
-/// probable than the pair.
+/// probable than the pair and is not strongly outdone by it.
 bool stood_for(const Hypothesis& h, const std::vector<Hypothesis>& said, const AmbiguitySet& set,
                const Correction& correction) {
   if (!correction.unseen.contains(h.id)) return false;
+  const bool pair = effects_in(h.id).size() == 2;
   for (const auto& id : plainer(h.id)) {
     const Hypothesis* other = said_of(said, id);
-    const bool ranks = effects_in(h.id).size() < 2 || (other && other->probability > h.probability);
+    const bool ranks = !pair || (other && other->probability > h.probability &&
+                                 h.log_evidence - other->log_evidence <
+                                     correction.temperature * std::log(kThresholds.strong));
     if (holds(set, id) && ranks) return true;
   }
   return false;
@@ -312,9 +315,9 @@ std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction
 
 AmbiguitySet set_of(const std::vector<Hypothesis>& said, const Correction& correction) {
   AmbiguitySet set;
-  double known = 0.0;
+  double known = 0.0, others = 0.0;
   for (const auto& h : said)
-    if (h.id != kUnknown) known += h.probability;
+    if (h.id != kUnknown) (h.id == kOtherPairs ? others : known) += h.probability;
   const Hypothesis* unknown = said_of(said, kUnknown);
   const bool first = unknown && said.front().id == kUnknown;
   if (first) set.ids.push_back(kUnknown);
@@ -322,6 +325,10 @@ AmbiguitySet set_of(const std::vector<Hypothesis>& said, const Correction& corre
     double held = 0.0;
     for (const auto& h : said) {
       if (h.id == kUnknown) continue;
+      if (h.id == kOtherPairs) {
+        if (&h == &said.front()) set.ids.push_back(h.id);
+        continue;
+      }
       const auto own = correction.levels.find(h.id);
       if (held <= (own == correction.levels.end() ? correction.level : own->second)) set.ids.push_back(h.id);
       held += h.probability / known;
@@ -331,7 +338,9 @@ AmbiguitySet set_of(const std::vector<Hypothesis>& said, const Correction& corre
   for (const auto& h : said)
     if (stood_for(h, said, set, correction)) behind.insert(h.id);
   std::erase_if(set.ids, [&](const std::string& id) { return behind.contains(id); });
-  if (unknown && !first && unknown->probability > correction.gate) set.ids.push_back(kUnknown);
+  // The gate was learnt without other pairs.
+  if (unknown && !first && unknown->probability > correction.gate * (1.0 - others))
+    set.ids.push_back(kUnknown);
   for (const auto& h : said)
     if (holds(set, h.id) || behind.contains(h.id)) set.probability += h.probability;
   return set;

@@ -32,7 +32,7 @@ struct Correction {
   double widening_of_others = 2.0;
   double widening_of_limits = 2.0;  ///< of upper limits of |θ|, beside that of intervals
   /// Effects that a set which holds none does not hold; pairs that it does not hold beside a more probable
-  /// effect of theirs, or none.
+  /// effect of theirs, or none, unless their evidence is ten times as large.
   std::set<std::string> unseen = {};
 };
 
@@ -73,9 +73,9 @@ struct Promise {
 /// split-conformal: the least level at which ⌈(n+1) confidence⌉ of n replayed sets hold their truth (Vovk et
 /// al. 2005). Effects whose runs are told from none at that level no more often than slips of 5 % explain
 /// (binomial test at 5 %) are unseen: a set that holds none stands for them, and the level is found again.
-/// Pairs that are not told from one of their effects likewise. `unknown` is let in by the
-/// same rule at a false-alarm rate of 5 %; intervals of θ likewise at 90 %, those of effects with few runs
-/// drawn to what all need; upper limits at 95 %.
+/// Pairs that are not told from one of their effects likewise, where the evidence is not strongly for them.
+/// `unknown` is let in by the same rule at a false-alarm rate of 5 %; intervals of θ likewise at 90 %, those
+/// of effects with few runs drawn to what all need; upper limits at 95 %.
 ///
 /// Nothing is learnt from runs whose effect was left out; what becomes of them is counted.
 Promise promise_of(const std::vector<Replayed>& replayed, double confidence);
@@ -85,7 +85,7 @@ std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction
 
 /// Of corrected explanations: `unknown` where it passes the gate, alone where it has nineteen twentieths; and
 /// the most probable of the others until they hold the level, without the unseen that another one in the set
-/// stands for.
+/// stands for. Pairs that were not run (kOtherPairs) are in it where nothing is more probable.
 AmbiguitySet set_of(const std::vector<Hypothesis>& corrected, const Correction& correction);
 
 }  // namespace pendular::diagnosis

@@ -77,6 +77,10 @@ class Learner {
         if (signature.id == pair.a) pair.beyond -= signature.at(pair.theta_a);
         if (signature.id == pair.b) pair.beyond -= signature.at(pair.theta_b);
       }
+      const auto runs = std::count_if(design_.runs.begin(), design_.runs.end(),
+                                      [&](const DesignRun& run) { return run.id == point.id; });
+      pair.error = responses.within / static_cast<double>(runs);
+      if (both->draws.size() > 0) pair.error += both->grown(1.0) / static_cast<double>(runs) * both->draws;
       found_.together.push_back(std::move(pair));
     }
   }
@@ -216,7 +220,10 @@ std::vector<Together> part_of(const std::vector<Together>& together,
                               const std::vector<std::size_t>& features) {
   const std::vector<Eigen::Index> rows(features.begin(), features.end());
   std::vector<Together> parts = together;
-  for (auto& part : parts) part.beyond = Eigen::VectorXd(part.beyond(rows));
+  for (auto& part : parts) {
+    part.beyond = Eigen::VectorXd(part.beyond(rows));
+    if (part.error.size() > 0) part.error = Eigen::MatrixXd(part.error(rows, rows));
+  }
   return parts;
 }
 

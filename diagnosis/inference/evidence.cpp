@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "base/parallel.h"
 #include "diagnosis/inference/log_sum.h"
 #include "diagnosis/inference/weigher.h"
 #include "diagnosis/thresholds.h"
@@ -12,7 +13,9 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr int kCells = 81;  // of an effect's range, in which another's nearest is looked for
+constexpr int kCells = 81;            // of an effect's range, in which another's nearest is looked for
+constexpr double kLikePair = 0.5;     // of Priors::like_known: to do what two effects at once would
+constexpr double kNegligible = 12.0;  // evidence of a pair, as a logarithm, below the best one's
 constexpr double kLeastShare = 0.01, kStep = 1.25;  // of the magnitudes at which an effect is looked for
 
 Weighed none(const ReducedSpace& space, const ReducedGap& gap) {
@@ -24,23 +27,27 @@ Weighed none(const ReducedSpace& space, const ReducedGap& gap) {
           beside_unknown(space, gap, nothing, fit.chi_squared)};
 }
 
+/// Of hypotheses that are alike before any data.
+double mean_evidence(const std::vector<Hypothesis>& hypotheses) {
+  std::vector<double> terms;
+  for (const auto& h : hypotheses) terms.push_back(h.log_evidence);
+  return log_sum(terms) - std::log(static_cast<double>(terms.size()));
+}
+
 /// Something beside what is known, or, by chance, something that does what a known effect would.
 Hypothesis unknown(const std::vector<Weighed>& known, double like_known) {
-  std::vector<double> beside, like;
+  std::vector<double> beside;
+  std::vector<Hypothesis> effects;
   for (const auto& one : known) {
     beside.push_back(one.beside_unknown);
-    if (one.hypothesis.magnitudes.size() == 1) like.push_back(one.hypothesis.log_evidence);
+    if (one.hypothesis.magnitudes.size() == 1) effects.push_back(one.hypothesis);
   }
-  const auto mean = [](const std::vector<double>& terms) {
-    return log_sum(terms) - std::log(static_cast<double>(terms.size()));
-  };
-  const double other = mean(beside);
-  if (like.empty()) return {"unknown", other, 0.0, {}, known.front().hypothesis.chi_squared};
-  return {"unknown",
-          log_sum({other + std::log(1.0 - like_known), mean(like) + std::log(like_known)}),
-          0.0,
-          {},
-          known.front().hypothesis.chi_squared};
+  const double other = log_sum(beside) - std::log(static_cast<double>(beside.size()));
+  Hypothesis found{"unknown", other, 0.0, {}, known.front().hypothesis.chi_squared};
+  if (!effects.empty())
+    found.log_evidence =
+        log_sum({other + std::log(1.0 - like_known), mean_evidence(effects) + std::log(like_known)});
+  return found;
 }
 
 /// Evidences times priors, made to sum to one; most probable first.
@@ -62,9 +69,16 @@ std::optional<Together> together_of(const std::vector<Together>& all, const Sign
     if (one.a == b.id && one.b == a.id) std::swap(one.a, one.b), std::swap(one.theta_a, one.theta_b);
     if (one.a != a.id || one.b != b.id) continue;
     one.beyond = space.reduced(one.beyond);
+    if (one.error.size() > 0) one.error = space.reduced_covariance(one.error);
     return one;
   }
   return std::nullopt;
+}
+
+const Hypothesis& best_of(const std::vector<Hypothesis>& all) {
+  return *std::max_element(all.begin(), all.end(), [](const Hypothesis& a, const Hypothesis& b) {
+    return a.log_evidence < b.log_evidence;
+  });
 }
 
 /// A reduced signature whose least magnitude is no larger than what these observations show of it.
@@ -82,13 +96,13 @@ Signature with_visible(Signature reduced) {
 
 Weigher::Weigher(const Gap& gap, const std::vector<Signature>& signatures,
                  const std::vector<Together>& together, const Priors& priors, Pairs which)
-    : space_(gap, signatures), priors_(priors) {
+    : space_(gap, signatures), priors_(priors), which_(which) {
   for (const auto& signature : signatures) reduced_.push_back(with_visible(space_.reduced(signature)));
   for (const auto& one : reduced_) singles_.emplace_back(std::vector{one}, std::nullopt, space_);
   for (std::size_t a = 0; a < reduced_.size(); ++a)
     for (std::size_t b = a + 1; b < reduced_.size(); ++b) {
       auto run = together_of(together, reduced_[a], reduced_[b], space_);
-      if (run || which == Pairs::all) pairs_.push_back({a, b, std::move(run)});
+      if (run || which != Pairs::run) pairs_.push_back({a, b, std::move(run)});
     }
 }
 
@@ -107,31 +121,68 @@ std::vector<Hypothesis> Weigher::of_singles(const ReducedGap& gap, double neglig
   return all;
 }
 
-// Predictions of a pair take much memory and long to make: one pair at a time, for all observations.
+// Predictions of a pair take much memory and long to make: one pair at a time and thread, for all
+// observations.
+void Weigher::add_pairs(const std::vector<ReducedGap>& gaps, double negligible,
+                        std::vector<std::vector<Hypothesis>>& all) const {
+  std::vector<std::vector<Hypothesis>> of_pairs(pairs_.size());
+  for_blocks(pairs_.size(), 1, [&](std::size_t p, std::size_t) {
+    const auto& [a, b, run] = pairs_[p];
+    const MagnitudeGrid grid({reduced_[a], reduced_[b]}, run, space_);
+    const double less = run ? negligible : std::min(negligible, kNegligible);
+    for (std::size_t k = 0; k < gaps.size(); ++k)
+      of_pairs[p].push_back(grid.weigh(gaps[k], best_of(all[k]).log_evidence - less).hypothesis);
+  });
+  for (std::size_t k = 0; k < gaps.size(); ++k) {
+    std::vector<Hypothesis> each, others;
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      each.push_back(of_pairs[p][k]);
+      (pairs_[p].run || which_ == Pairs::all ? all[k] : others).push_back(of_pairs[p][k]);
+    }
+    if (which_ == Pairs::run_and_others && !each.empty()) all[k].push_back(as_one(others, each));
+  }
+}
+
+double Weigher::prior_of_pair() const {
+  const auto effects = static_cast<double>(singles_.size());
+  return effects > 1.0 ? priors_.pairs / (0.5 * effects * (effects - 1.0)) : 0.0;
+}
+
+double Weigher::prior_like_pairs() const {
+  return kLikePair * priors_.like_known * priors_.unknown;
+}
+
+Hypothesis Weigher::as_one(const std::vector<Hypothesis>& others, const std::vector<Hypothesis>& all) const {
+  const double not_run = prior_of_pair() * static_cast<double>(others.size()), like = prior_like_pairs();
+  std::vector<double> terms = {mean_evidence(all) + std::log(like)};
+  if (!others.empty()) terms.push_back(mean_evidence(others) + std::log(not_run));
+  return {kOtherPairs, log_sum(terms) - std::log(not_run + like), 0.0, {}, best_of(all).chi_squared};
+}
+
 std::vector<std::vector<Hypothesis>> Weigher::operator()(const std::vector<Eigen::VectorXd>& observed,
                                                          double negligible) const {
   std::vector<ReducedGap> gaps;
   for (const auto& values : observed) gaps.push_back(space_.gap(values));
   std::vector<std::vector<Hypothesis>> all;
   for (const auto& gap : gaps) all.push_back(of_singles(gap, negligible));
-  for (const auto& [a, b, run] : pairs_) {
-    const MagnitudeGrid grid({reduced_[a], reduced_[b]}, run, space_);
-    for (std::size_t k = 0; k < gaps.size(); ++k) all[k].push_back(grid.weigh(gaps[k]).hypothesis);
-  }
+  add_pairs(gaps, negligible, all);
   const double effects = static_cast<double>(singles_.size());
   const double pairs = effects > 1.0 ? priors_.pairs : 0.0;
+  const auto others = static_cast<double>(
+      std::count_if(pairs_.begin(), pairs_.end(), [](const Pair& one) { return !one.run; }));
   for (auto& hypotheses : all)
     make_probabilities(hypotheses, [&](const Hypothesis& h) {
       if (h.id == "none") return priors_.none;
       if (h.id == "unknown") return priors_.unknown;
-      if (h.magnitudes.size() == 2) return pairs / (0.5 * effects * (effects - 1.0));
+      if (h.id == kOtherPairs) return others * prior_of_pair() + prior_like_pairs();
+      if (h.magnitudes.size() == 2) return prior_of_pair();
       return (1.0 - priors_.none - priors_.unknown - pairs) / effects;
     });
   return all;
 }
 
 std::vector<std::string> effects_in(const std::string& id) {
-  if (id == "none" || id == "unknown") return {};
+  if (id == "none" || id == "unknown" || id == kOtherPairs) return {};
   const auto plus = id.find('+');
   if (plus == std::string::npos) return {id};
   return {id.substr(0, plus), id.substr(plus + 1)};

@@ -21,7 +21,11 @@ struct Magnitude {
   std::pair<double, double> interval_90 = {0, 0};
 };
 
-/// An explanation: none, unknown, one effect, or two ("a+b").
+/// The explanation that stands for all pairs that were not run, and for something unknown that does what two
+/// effects would (Pairs::run_and_others).
+inline constexpr const char* kOtherPairs = "other_pairs";
+
+/// An explanation: none, unknown, one effect, two ("a+b"), or kOtherPairs.
 struct Hypothesis {
   std::string id;
   double log_evidence = 0.0;
@@ -30,11 +34,11 @@ struct Hypothesis {
   double chi_squared = 0.0;           ///< at the best magnitudes
 };
 
-/// Effects that an explanation holds: none in "none" and "unknown", two in "a+b".
+/// Effects that an explanation names: none in "none", "unknown" and kOtherPairs, two in "a+b".
 std::vector<std::string> effects_in(const std::string& id);
 
-/// Which pairs are weighed: all, or those of which it is known what they do together.
-enum class Pairs { all, run };
+/// Which pairs are weighed: all; those of which it is known what they do together; these, and kOtherPairs.
+enum class Pairs { all, run, run_and_others };
 
 /// Probabilities over none, every effect, every pair of effects, and unknown; most probable first.
 ///
@@ -50,7 +54,8 @@ enum class Pairs { all, run };
 ///
 /// `unknown` is something beside what is known: none or a single effect leaves a residual 1.5, 2.5, 4 or 7
 /// times as large as noise does, within the span, outside it, or both; or (Priors::like_known) something that
-/// does what a known effect would do.
+/// does what a known effect would do. kOtherPairs has, beside the prior of its pairs, half of that
+/// share: for what does what two would.
 std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& signatures,
                               const std::vector<Together>& together = {}, const Priors& priors = {},
                               Pairs pairs = Pairs::all);

@@ -236,7 +236,7 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
                        : std::vector<Replayed>{},
       rules.confidence);
   const auto hypotheses =
-      corrected(weigh(readings.gap, readings.signatures, readings.together, priors, Pairs::run),
+      corrected(weigh(readings.gap, readings.signatures, readings.together, priors, Pairs::run_and_others),
                 diagnosis.promise.correction);
   const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();
   set_explanations(problem, within_range(hypotheses), directions, rules, plan, diagnosis);

@@ -127,8 +127,11 @@ std::vector<Prediction> MagnitudeGrid::predict(const std::vector<Cell>& cells) c
     drawn_outside += grown * here.drawn_outside;
     errors.dof = errors.dof > 0.0 ? std::min(errors.dof, here.drawn_dof) : here.drawn_dof;
   }
-  if (together_)
-    sum += cells[0].theta / together_->theta_a * cells[1].theta / together_->theta_b * together_->beyond;
+  if (together_) {
+    const double grown = cells[0].theta / together_->theta_a * cells[1].theta / together_->theta_b;
+    sum += grown * together_->beyond;
+    if (together_->error.size() > 0) errors.draws += grown * grown * together_->error;
+  }
   errors.shares +=
       std::pow(together_ ? kThresholds.run_together : kThresholds.together, 2) * product.cwiseAbs();
   std::vector<Prediction> found;

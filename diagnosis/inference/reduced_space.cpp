@@ -51,7 +51,7 @@ void ReducedSpace::reduce(Response& response) const {
   if (response.early.size() > 0) response.early = reduced(response.early);
   if (response.draws.size() == 0) return;
   const double whole = response.draws.cwiseProduct(precision_).sum();  // the trace, in units of the noise
-  response.draws = reducer_ * response.draws * reducer_.transpose();
+  response.draws = reduced_covariance(response.draws);
   response.drawn_outside = std::max(0.0, whole - response.draws.trace());
   if (response.missed.rows() < kLeastRows) return;
   Eigen::MatrixXd rows(response.missed.rows(), size());

@@ -45,6 +45,9 @@ class ReducedSpace {
   ReducedSpace(const Gap& gap, const std::vector<Signature>& signatures);
 
   Eigen::VectorXd reduced(const Eigen::VectorXd& v) const { return reducer_ * v; }
+  Eigen::MatrixXd reduced_covariance(const Eigen::MatrixXd& covariance) const {
+    return reducer_ * covariance * reducer_.transpose();
+  }
   Signature reduced(Signature signature) const;
   ReducedGap gap(const Eigen::VectorXd& values) const { return {reduced(values), outside(values)}; }
   Eigen::Index size() const { return reducer_.rows(); }

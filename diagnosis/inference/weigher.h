@@ -21,7 +21,7 @@ class Weigher {
   Weigher& operator=(const Weigher&) = delete;
 
   /// The explanations of each of some observations: observed less simulated, as Gap::values. Magnitudes of
-  /// single effects whose evidence is less than e^−negligible of the best one's are told coarsely.
+  /// effects whose evidence is less than e^−negligible of the best one's are told coarsely.
   std::vector<std::vector<Hypothesis>> operator()(
       const std::vector<Eigen::VectorXd>& observed,
       double negligible = std::numeric_limits<double>::infinity()) const;
@@ -35,12 +35,23 @@ class Weigher {
   /// Unknown, none and single effects, before probabilities.
   std::vector<Hypothesis> of_singles(const ReducedGap& gap, double negligible) const;
 
+  double prior_of_pair() const;
+  double prior_like_pairs() const;  ///< of something unknown that does what two effects would
+  /// kOtherPairs: the pairs that were not run, each as likely as the next, or something that does what any of
+  /// `all` would.
+  Hypothesis as_one(const std::vector<Hypothesis>& others, const std::vector<Hypothesis>& all) const;
+
   struct Pair {
     std::size_t a, b;
     std::optional<Together> run;
   };
+  /// Adds the pairs to what is said of each gap.
+  void add_pairs(const std::vector<ReducedGap>& gaps, double negligible,
+                 std::vector<std::vector<Hypothesis>>& all) const;
+
   ReducedSpace space_;
   Priors priors_;
+  Pairs which_;
   std::vector<Signature> reduced_;
   std::deque<MagnitudeGrid> singles_;
   std::vector<Pair> pairs_;

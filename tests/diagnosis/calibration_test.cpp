@@ -116,6 +116,36 @@ TEST(Calibration, APairStandsBesideItsEffectsUnlessItIsNotToldFromThem) {
             (Ids{"a+b", "a"}));
 }
 
+TEST(Calibration, StrongEvidenceLetsAPairStandBesideItsEffect) {
+  Correction correction;
+  correction.level = 0.95, correction.temperature = 2.0, correction.unseen = {"a+b"};
+  const auto said = [](double ratio) {
+    return std::vector<Hypothesis>{{"a", 0.0, 0.8, {}, 0.0}, {"a+b", 2.0 * std::log(ratio), 0.2, {}, 0.0}};
+  };
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(set_of(said(9.0), correction).ids, (Ids{"a"}));
+  EXPECT_EQ(set_of(said(11.0), correction).ids, (Ids{"a", "a+b"}));
+}
+
+TEST(Calibration, PairsThatWereNotRunAreInNoSetButFirst) {
+  Correction correction;
+  correction.level = 0.6, correction.gate = 0.3;
+  const auto said = [](double others, double unknown) {
+    const double left = 1.0 - others - unknown;
+    std::vector<Hypothesis> all = {{"a", 0.0, 0.7 * left, {}, 0.0},
+                                   {"b", 0.0, 0.3 * left, {}, 0.0},
+                                   {kOtherPairs, 0.0, others, {}, 0.0},
+                                   {"unknown", 0.0, unknown, {}, 0.0}};
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& x, const auto& y) { return x.probability > y.probability; });
+    return all;
+  };
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(set_of(said(0.3, 0.1), correction).ids, (Ids{"a"}));
+  EXPECT_EQ(set_of(said(0.3, 0.25), correction).ids, (Ids{"a", "unknown"}));  // of 0.7, more than 0.3
+  EXPECT_EQ(set_of(said(0.6, 0.1), correction).ids, (Ids{kOtherPairs, "a"}));
+}
+
 TEST(Calibration, PairsThatWereRunAreInSetsAsOftenAsAsked) {
   // Runs of b and c together say so with the evidence that others have for what is true of them.
   auto all = runs(1.0, 1.0, 8);

@@ -96,6 +96,16 @@ TEST(Verdict, SaysPlainlyWhenItDoesNotKnow) {
   EXPECT_FALSE(says(told({missing(0.7), tilt}, 2), "not known"));
 }
 
+TEST(Verdict, SaysThatPairsWereNotRunWhereTheyExplainMost) {
+  const Diagnosis alone = told({bare(kOtherPairs, 0.8), bare("unknown", 0.2)}, 1);
+  EXPECT_TRUE(
+      says(alone, "probability 80 %, but no run has both (--runs). What to measure next cannot be told"))
+      << verdict_of(alone);
+  const Diagnosis beside = told({bare(kOtherPairs, 0.6), bare("none", 0.2)}, 2);
+  EXPECT_TRUE(says(beside, "but no run has both (--runs); not excluded: no effect (none)."))
+      << verdict_of(beside);
+}
+
 TEST(Verdict, TellsLimitsToTwoDigits) {
   Diagnosis d = told({bare("none", 0.98)}, 1);
   d.unseen = {{"voxel_scale", "fraction", 0.06427}, {"platen_friction", "1", 1.4694}};

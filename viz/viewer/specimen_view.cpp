@@ -1,5 +1,6 @@
 #include "viz/viewer/specimen_view.h"
 
+#include <fmt/format.h>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
