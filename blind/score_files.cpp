@@ -48,7 +48,8 @@ ordered_json json_of(const std::vector<ReliabilityBin>& bins) {
     all.push_back({{"from", bin.from},
                    {"to", bin.to},
                    {"mean_probability", json_of(bin.mean_probability)},
-                   {"right", json_of(bin.right)}});
+                   {"right", json_of(bin.right)},
+                   {"right_by_class", json_of(bin.right_by_class)}});
   return all;
 }
 

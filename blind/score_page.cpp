@@ -146,12 +146,12 @@ std::string kept_table(const Scores& s) {
 std::string reliability_table(const Scores& s) {
   std::string head = "| said |", line = "|---|", text;
   const auto add = [&](const std::string& name) { head += fmt::format(" {} |", name), line += "---|"; };
-  add("mean"), add("came true, all");
+  add("mean"), add("came true, all"), add("by class");
   for (const auto& [stratum, kept] : s.kept_by_stratum) add(to_string(stratum));
   for (std::size_t k = 0; k < s.kept.reliability.size(); ++k) {
     const auto& bin = s.kept.reliability[k];
-    text +=
-        fmt::format("| {}–{} | {} | {} |", bin.from, bin.to, number(bin.mean_probability), words(bin.right));
+    text += fmt::format("| {}–{} | {} | {} | {} |", bin.from, bin.to, number(bin.mean_probability),
+                        words(bin.right), words(bin.right_by_class));
     for (const auto& [stratum, kept] : s.kept_by_stratum) {
       const auto& own = kept.reliability[k];
       text += own.right.of == 0 ? " – |"

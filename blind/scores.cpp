@@ -73,13 +73,14 @@ std::vector<ReliabilityBin> reliability(const std::vector<Verdict>& verdicts) {
   std::vector<ReliabilityBin> bins;
   double from = 0.0;
   for (const double to : {0.4, 0.6, 0.8, 0.9, 1.0}) {  // those of a report
-    ReliabilityBin bin{from, to, 0.0, {}};
+    ReliabilityBin bin{from, to, 0.0, {}, {}};
     std::vector<double> said;
     for (const auto& verdict : verdicts) {
       const double p = verdict.probability(verdict.top());
       if (!verdict.said || p < from || (p >= to && to < 1.0)) continue;
       said.push_back(p);
       bin.right.count(verdict.exact());
+      bin.right_by_class.count(is_right(verdict, verdict.top(), Counting::by_class));
     }
     bin.mean_probability = mean(said);
     bins.push_back(bin);

@@ -26,7 +26,7 @@ inline constexpr double kLeastProbability = 1e-6;
 struct ReliabilityBin {
   double from = 0.0, to = 1.0;
   double mean_probability = 0.0;  ///< of the most probable explanations in the bin
-  Proportion right;
+  Proportion right, right_by_class;
 };
 
 /// θ of the true effect where one effect of the library was withheld and it has a magnitude in the report.

@@ -158,6 +158,10 @@ TEST_F(Score, CountsWhatAnIdealObserverCannotTellApartAsOne) {
   EXPECT_EQ(s.all_by_class.in_set.hits, s.all.in_set.hits);
   EXPECT_DOUBLE_EQ(s.all_by_class.set_size, 7.0 / 6.0);  // c2's two members are one answer
   EXPECT_LT(s.all_by_class.log_score, s.all.log_score);
+  std::size_t by_name = 0, by_class = 0;  // c2's is one more
+  for (const auto& bin : s.kept.reliability) by_name += bin.right.hits, by_class += bin.right_by_class.hits;
+  EXPECT_EQ(by_name, 3u);
+  EXPECT_EQ(by_class, 4u);
 }
 
 TEST_F(Score, WhatAReplayDoesNotTellFromNoneIsOneWithIt) {

@@ -174,7 +174,7 @@ def inner_links():
 
 def same_places():
     """The place of an input as the place to write."""
-    for command, status, changes in (("compress p.vtp --sample s.toml -o .", 0, ("curve.csv", "events.csv", "avalanches.csv", "result.json", "frames*", "checkpoint*")),
+    for command, status, changes in (("compress p.vtp --sample s.toml -o .", 0, ("curve.csv", "events.csv", "avalanches.csv", "result.json", "run.pvd", "frames*", "checkpoint*")),
                                      ("render run -o run", 0, ("run/*",)), ("sweep sweep.toml -o .", 0, ("store*", "results.csv", "summary.csv")),
                                      ("compress run/frames/frame_0002.vtp --sample s.toml -o run", (2, 3), ()),
                                      ("sweep swept/sweep.toml -o swept", 0, ("swept/*",)), ("blind score out out -o out", 3, ()),
@@ -214,7 +214,7 @@ def full_discs():
     for name, (blocks, command) in {"compress": (1, QUICK["compress"]), "sweep": (8, QUICK["sweep"]), "track": (1, QUICK["track"]),
                                     "modulus": (0, QUICK["modulus"]), "bridge": (0, QUICK["bridge"]), "render": (4, "render run -o new --no-film"),
                                     "segment": (1, QUICK["segment"]), "pack --generate": (1, "pack --generate --sample s.toml -o new.vtp")}.items():
-        yield Row(f"16 full disc in {name}", f"ulimit -f {blocks}; trap '' XFSZ; $P {command} --quiet", (3, 4), "", changes=("new/*", "new"),
+        yield Row(f"16 full disc in {name}", f"(ulimit -f {blocks}; trap '' XFSZ; $P {command} --quiet) 2>&1 | cat >&2; exit ${{PIPESTATUS[0]}}", (3, 4), "", changes=("new/*", "new"),
                   then=lambda folder: not any((folder / "new").rglob("result.json")) and not list(folder.glob("new.*")))
 
 
