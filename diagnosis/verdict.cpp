@@ -39,7 +39,8 @@ std::string cause(const Diagnosis& diagnosis) {
                        probability, rest.empty() ? "" : "; not excluded: " + joined(rest, kListed));
   if (best.id == kOtherPairs)
     return fmt::format(
-        "The cause is not known: two effects at once explain the gap best, probability {}, but no run has "
+        "The cause is not known: two effects at once, or something like two, explain the gap best, "
+        "probability {}, but no run has "
         "both (--runs){}.",
         probability, rest.empty() ? "" : "; not excluded: " + joined(rest, kListed));
   if (rest.empty()) return fmt::format("The cause is {}, probability {}.", in_words(best), probability);
