@@ -40,8 +40,7 @@ std::string cause(const Diagnosis& diagnosis) {
   if (best.id == kOtherPairs)
     return fmt::format(
         "The cause is not known: two effects at once, or something like two, explain the gap best, "
-        "probability {}, but no run has "
-        "both (--runs){}.",
+        "probability {}, but no run has both (--runs){}.",
         probability, rest.empty() ? "" : "; not excluded: " + joined(rest, kListed));
   if (rest.empty()) return fmt::format("The cause is {}, probability {}.", in_words(best), probability);
   if (best.probability >= kThresholds.likely)
