@@ -4,7 +4,7 @@ import os
 import re
 import shutil
 
-from row import SAMPLE, Row, both, file
+from row import LEFT_OUT, SAMPLE, Row, both, file
 
 PNG = bytes.fromhex("89504e470d0a1a0a0000000d49484452000000020000000208000000005a5a5a5a0000000049454e44ae426082")
 SPLIT = '[split]\nname = "t"\nseed = 5\ncases = 1\nsample = "m.toml"\n[test]\nmax_strain = 0.02\nunload_at = 0.01\n' \
@@ -168,8 +168,10 @@ def inner_links():
 
         yield Row(f"10 {command.split(' -o')[0]}: {inner} is a link", f"$P {command} --quiet", 3, inner, prepare,
                   changes=("out", "out/*"))
-    yield Row("10 an experiment's name is no path", "$P diagnose e.toml -o out --plan --levels 1 --runs 0 --quiet", (0, 3, 4), "",
-              both(plans, file("e.toml", '[experiment]\nname = "../../../../stray"\nsample = "s.toml"\n')), changes=("out", "out/*"), warns=True)
+    named = '[experiment]\nname = "../../../../stray"\nsample = "s.toml"\n[[observation]]\nkind = "compression"\nfile = "run/curve.csv"\n'
+    yield Row("10 an experiment's name is no path",
+              f"$P diagnose e.toml -o out --levels 1 --runs 0 --no-fresh-runs --leave-out {LEFT_OUT} --quiet", 0, "",
+              both(plans, file("e.toml", named)), changes=("out", "out/*"), warns=True)
 
 
 def same_places():
