@@ -12,6 +12,7 @@
 #include "base/files.h"
 #include "base/path_kind.h"
 #include "base/sample.h"
+#include "base/text_line.h"
 
 namespace pendular {
 
@@ -29,7 +30,7 @@ inline toml::table parse_toml(std::string_view text, const std::string& file) {
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
-    bad_input("{}:{}: {}", file, error.source().begin.line, error.description());
+    bad_input("{}:{}: {}", file, error.source().begin.line, printable(error.description()));
   }
 }
 

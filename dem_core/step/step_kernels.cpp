@@ -212,7 +212,7 @@ void advance(PairTable& pairs, BeadTable& beads, std::size_t first, std::size_t 
       parts};
   Losses losses = {zero, zero};
   PairBlock* const blocks = pairs.blocks.data();
-  ContactBlock* const contacts = pairs.contacts.data() + chunk.first_contact - chunk.touchable;
+  ContactBlock* const contacts = pairs.contacts.data();
   BendBlock* const bends = pairs.bends.data();
   Batch batch;
   for (std::size_t begin = first; begin < last; begin += kBatch) {
@@ -225,9 +225,9 @@ void advance(PairTable& pairs, BeadTable& beads, std::size_t first, std::size_t 
       read_motion<bending>(blocks[b], lane, beads, given.law, batch, at);
     });
     for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
-      const LaneMask breaking =
-          advance_lanes<may_touch, bending>(blocks[b], may_touch ? contacts + b : nullptr,
-                                            bending ? bends + b : nullptr, lane, given, batch, at, losses);
+      const LaneMask breaking = advance_lanes<may_touch, bending>(
+          blocks[b], may_touch ? contacts + (chunk.first_contact + b - chunk.touchable) : nullptr,
+          bending ? bends + b : nullptr, lane, given, batch, at, losses);
       if (any(breaking)) note_breaks(breaking, kBlock * b + lane, chunk);
     });
     for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {

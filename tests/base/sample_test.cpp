@@ -209,6 +209,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSample{"NeckLargerThanBead", "[bridges]\ndiameter_um = 300\n", "bridges.diameter_um"},
         BadSample{"OneStiffness", "[bridges]\nnormal_stiffness_n_per_m = 5760\n", "both or neither"},
         BadSample{"Syntax", "[beads\n", "s.toml:1"},
+        BadSample{"CutWord", "[contact]\nbond_friction_limit = fal\n", "saw 'fal '"},
         BadSample{"Word", "[contact]\ntangential_springs = \"three\"\n", "\"one\", \"two\""},
         BadSample{"TopLevel", "diameter_um = 3\n", "section"},
         BadSample{"Unload", "[compression]\nunload_at = [0.02, 0.01]\n", "rising"},

@@ -38,9 +38,11 @@ inline void read_mutations(const fs::path& path, const std::string& good, int ro
         case 2:
           bad.resize(place(bad.size()));
           break;
-        case 3:
-          bad.insert(place(bad.size()), bad.substr(place(bad.size()), 40));
+        case 3: {
+          const std::string piece = bad.substr(place(bad.size()), 40);
+          bad.insert(place(bad.size()), piece);
           break;
+        }
         default:
           bad.replace(place(bad.size()), 3, "-99999999999");
           break;
