@@ -18,6 +18,7 @@ struct MakeOptions {
   Common common;
   fs::path file;
   bool seed_given = false, dry_run = false;
+  std::size_t packing = 0;  // from 1; 0: all
 
   blind::Split split() const {
     return blind::read_split(file, seed_given ? std::optional(common.seed) : std::nullopt);
@@ -27,16 +28,21 @@ struct MakeOptions {
 void make(const MakeOptions& options) {
   apply(options.common, {options.file});
   const blind::Split split = options.split();
+  if (options.packing > split.packings.size())
+    throw BadUsage(fmt::format("--packing: found {}, expected at most {}, the packings of {}",
+                               options.packing, split.packings.size(), options.file.string()));
   const blind::CaseFolders folders{options.common.out};
-  if (options.dry_run) return say(blind::work_ahead(folders, split, thread_count()));
+  const std::string ahead = blind::work_ahead(folders, split, options.packing, thread_count());
+  if (options.dry_run) return say(ahead);
   make_folder(folders.root);
-  say(blind::work_ahead(folders, split, thread_count()));
-  blind::make_split(folders, split, thread_count(), [&](std::size_t number) {
-    return Command{own_program(),
-                   {"blind-case", options.file.string(), std::to_string(number), "--seed",
-                    std::to_string(split.seed), "--threads", "1", "-o", options.common.out.string()}};
-  });
-  say(fmt::format("{}: {} cases in {}, their truth in {}", split.name, split.cases,
+  say(ahead);
+  const std::size_t cases =
+      blind::make_split(folders, split, options.packing, thread_count(), [&](std::size_t number) {
+        return Command{own_program(),
+                       {"blind-case", options.file.string(), std::to_string(number), "--seed",
+                        std::to_string(split.seed), "--threads", "1", "-o", options.common.out.string()}};
+      });
+  say(fmt::format("{}: {} cases in {}, their truth in {}", split.name, cases,
                   (folders.root / "cases").string(), (folders.root / "sealed").string()));
 }
 
@@ -62,6 +68,8 @@ void add_blind_make(CLI::App& blind) {
       "read and the SHA-256 of DIR/sealed/NAME.json, which holds the truth. The same command goes on\n"
       "where it stopped.");
   command->add_option("file", options->file, "Split file (.toml)")->required();
+  command->add_option("--packing", options->packing, "Only the cases on this packing of the split, from 1")
+      ->check(CLI::Range(1, 1000));
   command->add_flag("--dry-run", options->dry_run, "Say how many cases there are and how long they take");
   command->add_flag("--resume")->description("Go on where it stopped; it does so anyway");
   add_common(*command, options->common, "Folder for the cases");

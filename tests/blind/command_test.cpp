@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "blind/case_folder.h"
 #include "places.h"
 #include "program.h"
@@ -42,6 +44,23 @@ TEST(BlindCommand, DryRunTellsAndMakesNothing) {
   EXPECT_EQ(told.status, 0) << told.errors;
   EXPECT_NE(told.errors.find("3 cases on 1 packings"), std::string::npos) << told.errors;
   EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(BlindCommand, MakesThePackingThatIsAskedFor) {
+  ScratchFolder folder;
+  const std::string split = "'" + pendular::test::source_folder() + "/samples/blind/sealed2.toml'";
+  const Outcome all = run(folder, "make " + split + " -o out --dry-run"),
+                one = run(folder, "make " + split + " -o out --dry-run --packing 4");
+  EXPECT_NE(all.errors.find("300 cases on 6 packings"), std::string::npos) << all.errors;
+  EXPECT_NE(one.errors.find("50 cases on 1 packings"), std::string::npos) << one.errors;
+  const Outcome none = run(folder, "make " + split + " -o out --packing 7");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.errors.find("--packing: found 7, expected at most 6"), std::string::npos) << none.errors;
+  const Outcome made = run(folder, "make " + kSplit + " -o out --packing 1");
+  ASSERT_EQ(made.status, 0) << made.errors;
+  EXPECT_EQ(files_in(folder / "out").count("cases/case_003/seal.txt"), 1u);
+  const std::string seals = read_text(folder / "out/seals.csv");
+  EXPECT_EQ(std::count(seals.begin(), seals.end(), '\n'), 4);
 }
 
 TEST(BlindCommand, GoesOnWithTheSameBytesAndScores) {
