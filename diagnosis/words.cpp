@@ -27,7 +27,7 @@ std::string of_each(const std::string& id, const char* between, const OfOne& of_
 std::string plain_name(const std::string& id) {
   if (id == "none") return "no effect";
   if (id == "unknown") return "something not in the library";
-  if (id == kOtherPairs) return "two effects that no run has together, or something unknown like two";
+  if (id == kOtherPairs) return "two effects that no run has together";
   return of_each(id, " with ", [](const std::string& one) {
     const auto* effect = effects::known_effect(one);
     return effect ? effect->name : one;
@@ -38,9 +38,7 @@ std::string sentence_of(const std::string& id) {
   if (id == "none") return "Experiment and simulation as believed agree within the noise.";
   if (id == "unknown")
     return "Something acts that is none of the known effects, or a believed input is farther off.";
-  if (id == kOtherPairs)
-    return "Two known effects act at once, in a pair that no run has, or something unknown does what two "
-           "would.";
+  if (id == kOtherPairs) return "Two known effects act at once, in a pair that no run has.";
   return of_each(id, " ", [](const std::string& one) {
     const auto* effect = effects::known_effect(one);
     return effect ? effect->sentence : std::string();

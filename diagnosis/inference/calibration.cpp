@@ -16,23 +16,6 @@ constexpr double kTemperatures[] = {1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0};
 constexpr double kLeastProbability = 1e-9;  // that a wrong answer is charged with
 constexpr double kConfident = 0.9;          // probability of what is said without doubt
 constexpr double kBins[] = {0.0, 0.4, 0.6, 0.8, 0.9, 1.0};
-constexpr const char* kNone = "none";
-constexpr const char* kUnknown = "unknown";
-
-const Hypothesis* said_of(const std::vector<Hypothesis>& said, const std::string& id) {
-  for (const auto& h : said)
-    if (h.id == id) return &h;
-  return nullptr;
-}
-
-/// What stands for an explanation that is not told from it: none for an effect; its effects and none for a
-/// pair.
-std::vector<std::string> plainer(const std::string& id) {
-  std::vector<std::string> ids = effects_in(id);
-  if (ids.size() < 2) ids.clear();
-  ids.emplace_back(kNone);
-  return ids;
-}
 
 /// The least value that ⌈(n+1) share⌉ of these do not exceed: of the n+1 to come as many, whatever their law.
 double conformal(std::vector<double> values, double share) {
@@ -82,11 +65,6 @@ double temperature_of(const Cases& cases) {
     if (loss < least) least = loss, best = temperature;
   }
   return best;
-}
-
-/// Whether a set holds an answer.
-bool holds(const AmbiguitySet& set, const std::string& id) {
-  return std::find(set.ids.begin(), set.ids.end(), id) != set.ids.end();
 }
 
 bool holds_any(const AmbiguitySet& set, const std::vector<std::string>& ids) {
@@ -210,12 +188,14 @@ Correction learn(const Cases& cases, double confidence) {
   Correction found;
   found.temperature = temperature_of(cases);
   std::vector<std::vector<Hypothesis>> said;
-  std::vector<double> alarms;
+  std::vector<double> alarms, left;
   for (const auto* one : cases) {
     said.push_back(tempered(one->said, found.temperature));
-    alarms.push_back(said_of(said.back(), kUnknown)->probability);
+    alarms.push_back(beside_known(said.back()));
+    left.push_back(left_by_best(said.back()));
   }
-  found.gate = conformal(std::move(alarms), 1.0 - kThresholds.false_alarms);
+  found.gate = conformal(std::move(alarms), 1.0 - 0.5 * kThresholds.false_alarms);
+  found.farthest = conformal(std::move(left), 1.0 - 0.5 * kThresholds.false_alarms);
   learn_levels(said, cases, confidence, found);
   found.unseen = unseen_in(said, cases, found);
   learn_levels(said, cases, confidence, found);
@@ -233,13 +213,13 @@ void count_outside(const Replayed& one, const Correction& correction, OutsideRep
 
 /// Adds what one replayed run shows of corrections that did not see its member.
 void count(const Replayed& one, const Correction& correction, Promise& promise,
-           std::vector<Reliability>& bins, double& magnitudes) {
+           std::vector<Reliability>& bins, double& magnitudes, double& plain) {
   const auto said = corrected(one.said, correction);
   const AmbiguitySet set = set_of(said, correction);
   const std::string truth = truth_of(one);
   promise.in_set += right(set, truth, correction);
   promise.set_size += static_cast<double>(set.ids.size());
-  promise.false_alarms += holds(set, kUnknown);
+  if (one.truth.size() < 2) promise.false_alarms += holds(set, kUnknown), plain += 1.0;
   const double top = said.front().probability;
   const auto bin =
       static_cast<std::size_t>(std::upper_bound(kBins + 1, std::end(kBins) - 1, top) - kBins - 1);
@@ -258,22 +238,6 @@ void count(const Replayed& one, const Correction& correction, Promise& promise,
   promise.limits_held += std::fabs(theta) <= upper_limit(named->magnitudes.front(), correction);
 }
 
-/// Whether something stands in the set for an unseen explanation: none, or an effect of a pair that is more
-/// probable than the pair and is not strongly outdone by it.
-bool stood_for(const Hypothesis& h, const std::vector<Hypothesis>& said, const AmbiguitySet& set,
-               const Correction& correction) {
-  if (!correction.unseen.contains(h.id)) return false;
-  const bool pair = effects_in(h.id).size() == 2;
-  for (const auto& id : plainer(h.id)) {
-    const Hypothesis* other = said_of(said, id);
-    const bool ranks = !pair || (other && other->probability > h.probability &&
-                                 h.log_evidence - other->log_evidence <
-                                     correction.temperature * std::log(kThresholds.strong));
-    if (holds(set, id) && ranks) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::string truth_of(const Replayed& one) {
@@ -288,62 +252,6 @@ std::string truth_of(const Replayed& one) {
   std::string joined;
   for (const auto& [id, theta] : one.truth) joined += (joined.empty() ? "" : "+") + id;
   return joined;
-}
-
-double upper_limit(const Magnitude& magnitude, const Correction& correction) {
-  return correction.widening_of_limits *
-         std::max(std::fabs(magnitude.interval_90.first), std::fabs(magnitude.interval_90.second));
-}
-
-std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction) {
-  std::vector<double> logs;
-  for (const auto& h : said)
-    logs.push_back(std::log(std::max(1e-300, h.probability)) +
-                   h.log_evidence * (1.0 / correction.temperature - 1.0));
-  const double total = log_sum(logs);
-  for (std::size_t k = 0; k < said.size(); ++k) {
-    said[k].probability = std::exp(logs[k] - total);
-    const auto own = correction.widening.find(said[k].id);
-    const double widening = own == correction.widening.end() ? correction.widening_of_others : own->second;
-    for (auto& [mean, interval] : said[k].magnitudes)
-      interval = {mean + widening * (interval.first - mean), mean + widening * (interval.second - mean)};
-  }
-  std::stable_sort(said.begin(), said.end(),
-                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
-  return said;
-}
-
-AmbiguitySet set_of(const std::vector<Hypothesis>& said, const Correction& correction) {
-  AmbiguitySet set;
-  double known = 0.0, others = 0.0;
-  for (const auto& h : said)
-    if (h.id != kUnknown) (h.id == kOtherPairs ? others : known) += h.probability;
-  const Hypothesis* unknown = said_of(said, kUnknown);
-  const bool first = unknown && said.front().id == kUnknown;
-  if (first) set.ids.push_back(kUnknown);
-  if (!first || unknown->probability < kThresholds.unknown_alone) {
-    double held = 0.0;
-    for (const auto& h : said) {
-      if (h.id == kUnknown) continue;
-      if (h.id == kOtherPairs) {
-        if (&h == &said.front()) set.ids.push_back(h.id);
-        continue;
-      }
-      const auto own = correction.levels.find(h.id);
-      if (held <= (own == correction.levels.end() ? correction.level : own->second)) set.ids.push_back(h.id);
-      held += h.probability / known;
-    }
-  }
-  std::set<std::string> behind;
-  for (const auto& h : said)
-    if (stood_for(h, said, set, correction)) behind.insert(h.id);
-  std::erase_if(set.ids, [&](const std::string& id) { return behind.contains(id); });
-  // The gate was learnt without other pairs.
-  if (unknown && !first && unknown->probability > correction.gate * (1.0 - others))
-    set.ids.push_back(kUnknown);
-  for (const auto& h : said)
-    if (holds(set, h.id) || behind.contains(h.id)) set.probability += h.probability;
-  return set;
 }
 
 Promise promise_of(const std::vector<Replayed>& replayed, double confidence) {
@@ -362,19 +270,20 @@ Promise promise_of(const std::vector<Replayed>& replayed, double confidence) {
   promise.cases = cases.size();
   promise.correction = learn(cases, confidence);
   std::vector<Reliability> bins(std::size(kBins) - 1);
-  double magnitudes = 0.0;
+  double magnitudes = 0.0, plain = 0.0;
   for (const int member : members) {
     Cases others;
     std::copy_if(cases.begin(), cases.end(), std::back_inserter(others),
                  [&](const Replayed* one) { return one->member != member; });
     const Correction without = learn(others, confidence);
     for (const auto* one : cases)
-      if (one->member == member) count(*one, without, promise, bins, magnitudes);
+      if (one->member == member) count(*one, without, promise, bins, magnitudes, plain);
     for (const auto* one : outside)
       if (one->member == member) count_outside(*one, without, promise.outside);
   }
   const double n = static_cast<double>(cases.size());
-  promise.in_set /= n, promise.set_size /= n, promise.false_alarms /= n;
+  promise.in_set /= n, promise.set_size /= n;
+  if (plain > 0.0) promise.false_alarms /= plain;
   if (magnitudes > 0.0) promise.theta_held /= magnitudes, promise.limits_held /= magnitudes;
   for (auto& bin : bins) {
     if (bin.cases == 0) continue;

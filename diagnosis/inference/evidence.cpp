@@ -14,7 +14,6 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr int kCells = 81;            // of an effect's range, in which another's nearest is looked for
-constexpr double kLikePair = 0.5;     // of Priors::like_known: to do what two effects at once would
 constexpr double kNegligible = 12.0;  // evidence of a pair, as a logarithm, below the best one's
 constexpr double kLeastShare = 0.01, kStep = 1.25;  // of the magnitudes at which an effect is looked for
 
@@ -133,30 +132,11 @@ void Weigher::add_pairs(const std::vector<ReducedGap>& gaps, double negligible,
     for (std::size_t k = 0; k < gaps.size(); ++k)
       of_pairs[p].push_back(grid.weigh(gaps[k], best_of(all[k]).log_evidence - less).hypothesis);
   });
-  for (std::size_t k = 0; k < gaps.size(); ++k) {
-    std::vector<Hypothesis> each, others;
+  for (std::size_t k = 0; k < gaps.size(); ++k)
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
-      each.push_back(of_pairs[p][k]);
-      (pairs_[p].run || which_ == Pairs::all ? all[k] : others).push_back(of_pairs[p][k]);
+      all[k].push_back(std::move(of_pairs[p][k]));
+      all[k].back().run = pairs_[p].run.has_value();
     }
-    if (which_ == Pairs::run_and_others && !each.empty()) all[k].push_back(as_one(others, each));
-  }
-}
-
-double Weigher::prior_of_pair() const {
-  const auto effects = static_cast<double>(singles_.size());
-  return effects > 1.0 ? priors_.pairs / (0.5 * effects * (effects - 1.0)) : 0.0;
-}
-
-double Weigher::prior_like_pairs() const {
-  return kLikePair * priors_.like_known * priors_.unknown;
-}
-
-Hypothesis Weigher::as_one(const std::vector<Hypothesis>& others, const std::vector<Hypothesis>& all) const {
-  const double not_run = prior_of_pair() * static_cast<double>(others.size()), like = prior_like_pairs();
-  std::vector<double> terms = {mean_evidence(all) + std::log(like)};
-  if (!others.empty()) terms.push_back(mean_evidence(others) + std::log(not_run));
-  return {kOtherPairs, log_sum(terms) - std::log(not_run + like), 0.0, {}, best_of(all).chi_squared};
 }
 
 std::vector<std::vector<Hypothesis>> Weigher::operator()(const std::vector<Eigen::VectorXd>& observed,
@@ -168,14 +148,11 @@ std::vector<std::vector<Hypothesis>> Weigher::operator()(const std::vector<Eigen
   add_pairs(gaps, negligible, all);
   const double effects = static_cast<double>(singles_.size());
   const double pairs = effects > 1.0 ? priors_.pairs : 0.0;
-  const auto others = static_cast<double>(
-      std::count_if(pairs_.begin(), pairs_.end(), [](const Pair& one) { return !one.run; }));
   for (auto& hypotheses : all)
     make_probabilities(hypotheses, [&](const Hypothesis& h) {
       if (h.id == "none") return priors_.none;
       if (h.id == "unknown") return priors_.unknown;
-      if (h.id == kOtherPairs) return others * prior_of_pair() + prior_like_pairs();
-      if (h.magnitudes.size() == 2) return prior_of_pair();
+      if (h.magnitudes.size() == 2) return pairs / (0.5 * effects * (effects - 1.0));
       return (1.0 - priors_.none - priors_.unknown - pairs) / effects;
     });
   return all;

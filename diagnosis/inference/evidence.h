@@ -21,8 +21,7 @@ struct Magnitude {
   std::pair<double, double> interval_90 = {0, 0};
 };
 
-/// The explanation that stands for all pairs that were not run, and for something unknown that does what two
-/// effects would (Pairs::run_and_others).
+/// The explanation that stands for all pairs that were not run (corrected()).
 inline constexpr const char* kOtherPairs = "other_pairs";
 
 /// An explanation: none, unknown, one effect, two ("a+b"), or kOtherPairs.
@@ -32,13 +31,14 @@ struct Hypothesis {
   double probability = 0.0;
   std::vector<Magnitude> magnitudes;  ///< one per effect
   double chi_squared = 0.0;           ///< at the best magnitudes
+  bool run = true;                    ///< of a pair: it was run what they do together
 };
 
 /// Effects that an explanation names: none in "none", "unknown" and kOtherPairs, two in "a+b".
 std::vector<std::string> effects_in(const std::string& id);
 
-/// Which pairs are weighed: all; those of which it is known what they do together; these, and kOtherPairs.
-enum class Pairs { all, run, run_and_others };
+/// Which pairs are weighed: all, or those of which it was run what they do together.
+enum class Pairs { all, run };
 
 /// Probabilities over none, every effect, every pair of effects, and unknown; most probable first.
 ///
@@ -54,8 +54,7 @@ enum class Pairs { all, run, run_and_others };
 ///
 /// `unknown` is something beside what is known: none or a single effect leaves a residual 1.5, 2.5, 4 or 7
 /// times as large as noise does, within the span, outside it, or both; or (Priors::like_known) something that
-/// does what a known effect would do. kOtherPairs has, beside the prior of its pairs, half of that
-/// share: for what does what two would.
+/// does what a known effect would do.
 std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& signatures,
                               const std::vector<Together>& together = {}, const Priors& priors = {},
                               Pairs pairs = Pairs::all);

@@ -126,6 +126,8 @@ void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hyp
       e.reason = why_excluded(problem, h, chi_squared_of_none, visible, rules);
       e.excluded = visible >= rules.separable;
     }
+    if (h.id == "unknown")
+      if (const char* why = why_unknown(hypotheses, diagnosis.promise.correction)) e.reason = why;
     diagnosis.explanations.push_back(std::move(e));
   }
   for (const auto& [id, why] : plan.absent) {
@@ -235,9 +237,8 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
       problem.features ? replay(experiment, plan, *problem.features, priors, rules.draws, LeftOut::effects)
                        : std::vector<Replayed>{},
       rules.confidence);
-  const auto hypotheses =
-      corrected(weigh(readings.gap, readings.signatures, readings.together, priors, Pairs::run_and_others),
-                diagnosis.promise.correction);
+  const auto hypotheses = corrected(weigh(readings.gap, readings.signatures, readings.together, priors),
+                                    diagnosis.promise.correction);
   const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();
   set_explanations(problem, within_range(hypotheses), directions, rules, plan, diagnosis);
   diagnosis.nearest_signature = nearest_signature(hypotheses, directions);

@@ -35,12 +35,6 @@ class Weigher {
   /// Unknown, none and single effects, before probabilities.
   std::vector<Hypothesis> of_singles(const ReducedGap& gap, double negligible) const;
 
-  double prior_of_pair() const;
-  double prior_like_pairs() const;  ///< of something unknown that does what two effects would
-  /// kOtherPairs: the pairs that were not run, each as likely as the next, or something that does what any of
-  /// `all` would.
-  Hypothesis as_one(const std::vector<Hypothesis>& others, const std::vector<Hypothesis>& all) const;
-
   struct Pair {
     std::size_t a, b;
     std::optional<Together> run;

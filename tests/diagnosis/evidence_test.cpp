@@ -238,40 +238,12 @@ TEST(Evidence, FewRunsOfAPairSayNoMoreThanTheyScatter) {
   EXPECT_GT(probability(weigh(gap, all, {run}), "a+b"), 2.0 * sure);
 }
 
-TEST(Evidence, PairsThatWereNotRunAndWhatIsLikeTwoAreOneExplanation) {
-  // Odds to any other explanation: those of the pairs not run together, and a quarter of the prior of
-  // `unknown` on the mean of all pairs.
-  const Priors priors;
-  const auto all = effects(5, 4.0);
-  const Gap gap = gap_of(all[1].at(0.8) + all[3].at(0.6) + draw(41));
-  const std::vector<Together> run = {{"a", "b", 1.0, 1.0, Eigen::VectorXd::Zero(kFeatures)}};
-  const auto each = weigh(gap, all, run), as_one = weigh(gap, all, run, {}, Pairs::run_and_others);
-  double pairs = 0.0;
-  for (const auto& h : each)
-    if (h.id.find('+') != std::string::npos) pairs += h.probability;
-  const double others = pairs - probability(each, "a+b") + 0.25 * priors.unknown / priors.pairs * pairs;
-  EXPECT_GT(others, 0.1);
-  EXPECT_NEAR(probability(as_one, kOtherPairs) / probability(as_one, "none"),
-              others / probability(each, "none"), 1e-6 * others / probability(each, "none"));
-  for (const auto& h : as_one) {
-    if (h.id == kOtherPairs) continue;
-    EXPECT_NEAR(h.probability,
-                (1.0 - probability(as_one, kOtherPairs)) * probability(each, h.id) /
-                    (1.0 - pairs + probability(each, "a+b")),
-                1e-9)
-        << h.id;
-  }
+TEST(Evidence, OfPairsItIsKnownWhetherTheyWereRun) {
+  const auto all = effects(4, 4.0);
+  const std::vector<Together> run = {{"c", "a", 1.0, 1.0, Eigen::VectorXd::Zero(kFeatures)}};
+  for (const auto& h : weigh(gap_of(draw(41)), all, run))
+    EXPECT_EQ(h.run, effects_in(h.id).size() < 2 || h.id == "a+c") << h.id;
   EXPECT_TRUE(effects_in(kOtherPairs).empty());
-}
-
-TEST(Evidence, NoPairIsSurerThanWhatIsUnknownAllows) {
-  // Where one pair alone fits, the odds of what does what two would are those of the priors.
-  const Priors priors;
-  const auto all = effects(5, 40.0);
-  const std::vector<Together> run = {{"b", "d", 1.0, 1.0, Eigen::VectorXd::Zero(kFeatures)}};
-  const auto two = weigh(gap_of(all[1].at(1.0) + all[3].at(1.0)), all, run, {}, Pairs::run_and_others);
-  EXPECT_NEAR(probability(two, kOtherPairs) / probability(two, "b+d"), 0.25 * priors.unknown / priors.pairs,
-              0.02);
 }
 
 TEST(Evidence, WhatDrawsOfAnEffectDifferByIsNotHeldAgainstIt) {

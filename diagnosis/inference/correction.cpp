@@ -1,0 +1,164 @@
+#include "diagnosis/inference/correction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "diagnosis/inference/log_sum.h"
+#include "diagnosis/thresholds.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+bool is_pair(const Hypothesis& h) {
+  return h.id == kOtherPairs || effects_in(h.id).size() == 2;
+}
+
+double probability_of_pairs(const std::vector<Hypothesis>& said) {
+  double sum = 0.0;
+  for (const auto& h : said)
+    if (is_pair(h)) sum += h.probability;
+  return sum;
+}
+
+/// Whether something stands in the set for an unseen explanation: none, or an effect of a pair that is more
+/// probable than the pair and is not strongly outdone by it.
+bool stood_for(const Hypothesis& h, const std::vector<Hypothesis>& said, const AmbiguitySet& set,
+               const Correction& correction) {
+  if (!correction.unseen.contains(h.id)) return false;
+  const bool pair = effects_in(h.id).size() == 2;
+  for (const auto& id : plainer(h.id)) {
+    const Hypothesis* other = said_of(said, id);
+    const bool ranks = !pair || (other && other->probability > h.probability &&
+                                 h.log_evidence - other->log_evidence <
+                                     correction.temperature * std::log(kThresholds.strong));
+    if (holds(set, id) && ranks) return true;
+  }
+  return false;
+}
+
+/// Pairs that were not run, as one explanation: whichever is named, no run shows what it does.
+std::vector<Hypothesis> with_others_as_one(std::vector<Hypothesis> said) {
+  std::vector<Hypothesis> found;
+  std::optional<Hypothesis> others;
+  for (auto& h : said) {
+    if (h.run) {
+      found.push_back(std::move(h));
+      continue;
+    }
+    if (!others || h.log_evidence > others->log_evidence)
+      others = {kOtherPairs, h.log_evidence, others ? others->probability : 0.0, {}, h.chi_squared};
+    others->probability += h.probability;
+  }
+  if (others) found.push_back(*std::move(others));
+  return found;
+}
+
+/// Something unknown often does what two effects would: it has a share of what pairs have.
+void add_what_is_like_pairs(std::vector<Hypothesis>& said) {
+  const double like = kThresholds.like_pairs * probability_of_pairs(said);
+  for (auto& h : said) h.probability = (h.probability + (h.id == kUnknown ? like : 0.0)) / (1.0 + like);
+}
+
+}  // namespace
+
+const Hypothesis* said_of(const std::vector<Hypothesis>& said, const std::string& id) {
+  for (const auto& h : said)
+    if (h.id == id) return &h;
+  return nullptr;
+}
+
+std::vector<std::string> plainer(const std::string& id) {
+  std::vector<std::string> ids = effects_in(id);
+  if (ids.size() < 2) ids.clear();
+  ids.emplace_back(kNone);
+  return ids;
+}
+
+double beside_known(const std::vector<Hypothesis>& said) {
+  const double like = kThresholds.like_pairs * probability_of_pairs(said);
+  const Hypothesis *unknown = said_of(said, kUnknown), *others = said_of(said, kOtherPairs);
+  if (!unknown) return 0.0;
+  const double among = 1.0 - like - (others ? others->probability : 0.0);
+  return among > 0.0 ? (unknown->probability - like) / among : 0.0;
+}
+
+double left_by_best(const std::vector<Hypothesis>& said) {
+  for (const auto& h : said)
+    if (h.id != kUnknown && h.id != kOtherPairs) return h.chi_squared;
+  return 0.0;
+}
+
+bool holds(const AmbiguitySet& set, const std::string& id) {
+  return std::find(set.ids.begin(), set.ids.end(), id) != set.ids.end();
+}
+
+double upper_limit(const Magnitude& magnitude, const Correction& correction) {
+  return correction.widening_of_limits *
+         std::max(std::fabs(magnitude.interval_90.first), std::fabs(magnitude.interval_90.second));
+}
+
+std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction) {
+  std::vector<double> logs;
+  for (const auto& h : said)
+    logs.push_back(std::log(std::max(1e-300, h.probability)) +
+                   h.log_evidence * (1.0 / correction.temperature - 1.0));
+  const double total = log_sum(logs);
+  for (std::size_t k = 0; k < said.size(); ++k) {
+    said[k].probability = std::exp(logs[k] - total);
+    const auto own = correction.widening.find(said[k].id);
+    const double widening = own == correction.widening.end() ? correction.widening_of_others : own->second;
+    for (auto& [mean, interval] : said[k].magnitudes)
+      interval = {mean + widening * (interval.first - mean), mean + widening * (interval.second - mean)};
+  }
+  said = with_others_as_one(std::move(said));
+  add_what_is_like_pairs(said);
+  std::stable_sort(said.begin(), said.end(),
+                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  return said;
+}
+
+const char* why_unknown(const std::vector<Hypothesis>& said, const Correction& correction) {
+  const double pairs = probability_of_pairs(said);
+  double singles = 0.0;  // and none
+  for (const auto& h : said)
+    if (h.id != kUnknown && !is_pair(h)) singles += h.probability;
+  if (beside_known(said) > correction.gate || (!said.empty() && said.front().id == kUnknown))
+    return "what is left is not like the noise";
+  if (left_by_best(said) > correction.farthest)
+    return "the best explanation leaves more than replayed runs do";
+  if (pairs > singles) return "something unknown does as often what two effects would";
+  return nullptr;
+}
+
+AmbiguitySet set_of(const std::vector<Hypothesis>& said, const Correction& correction) {
+  AmbiguitySet set;
+  double known = 0.0;
+  for (const auto& h : said)
+    if (h.id != kUnknown && h.id != kOtherPairs) known += h.probability;
+  const bool first = !said.empty() && said.front().id == kUnknown;
+  if (first) set.ids.push_back(kUnknown);
+  if (!first || said.front().probability < kThresholds.unknown_alone) {
+    double held = 0.0;
+    for (const auto& h : said) {
+      if (h.id == kUnknown) continue;
+      if (h.id == kOtherPairs) {
+        if (&h == &said.front()) set.ids.push_back(h.id);
+        continue;
+      }
+      const auto own = correction.levels.find(h.id);
+      if (held <= (own == correction.levels.end() ? correction.level : own->second)) set.ids.push_back(h.id);
+      held += h.probability / known;
+    }
+  }
+  std::set<std::string> behind;
+  for (const auto& h : said)
+    if (stood_for(h, said, set, correction)) behind.insert(h.id);
+  std::erase_if(set.ids, [&](const std::string& id) { return behind.contains(id); });
+  if (!first && said_of(said, kUnknown) && why_unknown(said, correction)) set.ids.push_back(kUnknown);
+  for (const auto& h : said)
+    if (holds(set, h.id) || behind.contains(h.id)) set.probability += h.probability;
+  return set;
+}
+
+}  // namespace pendular::diagnosis

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "diagnosis/inference/evidence.h"
+
+namespace pendular::diagnosis {
+
+inline constexpr const char *kNone = "none", *kUnknown = "unknown";
+
+/// How probabilities, sets and intervals are made to hold what they promise, learnt from a replay; as it
+/// stands, for a bank that is too small for one: wide.
+struct Correction {
+  double temperature = 2.0;                   ///< by which logarithms of evidence are divided
+  double level = 0.95;                        ///< of the known explanations' probability, that a set holds
+  std::map<std::string, double> levels = {};  ///< likewise, for explanations that need another one to get in
+  double gate = 0.1;  ///< probability of `unknown`, beside what is like pairs, from which it is in the set
+  double farthest = std::numeric_limits<double>::infinity();  ///< χ² of the best named one, likewise
+  std::map<std::string, double> widening = {};                ///< of an effect's interval of θ
+  double widening_of_others = 2.0;
+  double widening_of_limits = 2.0;  ///< of upper limits of |θ|, beside that of intervals
+  /// Effects that a set which holds none does not hold; pairs that it does not hold beside a more probable
+  /// effect of theirs, or none, unless their evidence is ten times as large.
+  std::set<std::string> unseen = {};
+};
+
+/// What a set of explanations is made of.
+struct AmbiguitySet {
+  std::vector<std::string> ids;  ///< best first
+  double probability = 0.0;
+};
+
+/// Upper limit of |θ|, at 95 %, of an effect that is there: the farther end of its corrected interval,
+/// widened.
+double upper_limit(const Magnitude& magnitude, const Correction& correction);
+
+/// Probabilities by tempered evidence, and intervals widened about their means. Pairs that were not run are
+/// one explanation, kOtherPairs; `unknown` has, beside its own, a share (kThresholds.like_pairs) of what
+/// pairs have: what is outside the library often does what two effects would.
+std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction);
+
+/// Why `unknown` is in the set of corrected explanations, as a clause; null where it is not. It is where it
+/// is the most probable, where it passes the gate, where the best explanation is farther off than replayed
+/// runs are, and where pairs together outweigh none and single effects.
+const char* why_unknown(const std::vector<Hypothesis>& corrected, const Correction& correction);
+
+/// Of corrected explanations: `unknown` (why_unknown()), alone where it has nineteen twentieths; and the most
+/// probable of the others until they hold the level, without the unseen that another one in the set stands
+/// for. Pairs that were not run (kOtherPairs) are in it where nothing is more probable.
+AmbiguitySet set_of(const std::vector<Hypothesis>& corrected, const Correction& correction);
+
+/// The explanation of this name; null where there is none.
+const Hypothesis* said_of(const std::vector<Hypothesis>& said, const std::string& id);
+
+/// Whether a set holds an explanation.
+bool holds(const AmbiguitySet& set, const std::string& id);
+
+/// What stands for an explanation that is not told from it: none for an effect; its effects and none for a
+/// pair.
+std::vector<std::string> plainer(const std::string& id);
+
+/// Of P(unknown) the part that is not like two effects, among what is neither that nor a pair that was not
+/// run: what replayed runs can be held against.
+double beside_known(const std::vector<Hypothesis>& corrected);
+
+/// χ² of the most probable explanation that names what it is.
+double left_by_best(const std::vector<Hypothesis>& corrected);
+
+}  // namespace pendular::diagnosis
