@@ -14,6 +14,7 @@ struct NumberCell {
 
 }  // namespace pendular
 
+/// @cond Doxygen looks for fmt's own template.
 template <>
 struct fmt::formatter<pendular::NumberCell> : fmt::formatter<double> {
   template <typename Context>
@@ -21,3 +22,4 @@ struct fmt::formatter<pendular::NumberCell> : fmt::formatter<double> {
     return std::isfinite(cell.value) ? fmt::formatter<double>::format(cell.value, context) : context.out();
   }
 };
+/// @endcond

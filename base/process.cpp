@@ -130,7 +130,7 @@ fs::path found_on_path(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');)
-    if (const fs::path file = fs::path(folder) / name; ::access(file.c_str(), X_OK) == 0) return file;
+    if (fs::path file = fs::path(folder) / name; ::access(file.c_str(), X_OK) == 0) return file;
   return {};
 }
 

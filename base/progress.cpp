@@ -36,8 +36,9 @@ std::optional<Listener>& listener() {
 template <typename... Values>
 bool told(std::function<void(Values...)> Listener::*what, const std::type_identity_t<Values>&... values) {
   const std::lock_guard lock(listening);
-  if (!listener()) return false;
-  if (const auto tell = (*listener()).*what) tell(values...);
+  const std::optional<Listener>& one = listener();
+  if (!one) return false;
+  if (const auto tell = (*one).*what) tell(values...);
   return true;
 }
 

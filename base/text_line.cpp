@@ -58,7 +58,7 @@ std::string printable(std::string_view text) {
 }
 
 std::string text_line(std::string_view text) {
-  const std::string line = printable(text);
+  std::string line = printable(text);
   if (line.size() <= kHead + kTail + 10) return line;
   std::size_t head = kHead, tail = line.size() - kTail;
   while (continues(line[head])) --head;

@@ -54,10 +54,22 @@ std::vector<Hypothesis> with_others_as_one(std::vector<Hypothesis> said) {
   return found;
 }
 
-/// Something unknown often does what two effects would: it has a share of what pairs have.
-void add_what_is_like_pairs(std::vector<Hypothesis>& said) {
-  const double like = kThresholds.like_pairs * probability_of_pairs(said);
-  for (auto& h : said) h.probability = (h.probability + (h.id == kUnknown ? like : 0.0)) / (1.0 + like);
+/// Something unknown often does what two effects would: it has a share of what pairs have beyond the better
+/// of their effects.
+void add_what_is_like_pairs(std::vector<Hypothesis>& said, double temperature) {
+  double like = 0.0;
+  for (const auto& h : said) {
+    if (!is_pair(h)) continue;
+    double needless = 0.0;  // share of its evidence that one of its effects has alone
+    for (const auto& id : effects_in(h.id))
+      if (const Hypothesis* one = said_of(said, id))
+        needless = std::max(needless, std::exp((one->log_evidence - h.log_evidence) / temperature));
+    like += kThresholds.like_pairs * h.probability * std::max(0.0, 1.0 - needless);
+  }
+  for (auto& h : said) {
+    h.like_pairs = h.id == kUnknown ? like / (1.0 + like) : 0.0;
+    h.probability = h.probability / (1.0 + like) + h.like_pairs;
+  }
 }
 
 }  // namespace
@@ -76,11 +88,10 @@ std::vector<std::string> plainer(const std::string& id) {
 }
 
 double beside_known(const std::vector<Hypothesis>& said) {
-  const double like = kThresholds.like_pairs * probability_of_pairs(said);
   const Hypothesis *unknown = said_of(said, kUnknown), *others = said_of(said, kOtherPairs);
   if (!unknown) return 0.0;
-  const double among = 1.0 - like - (others ? others->probability : 0.0);
-  return among > 0.0 ? (unknown->probability - like) / among : 0.0;
+  const double among = 1.0 - unknown->like_pairs - (others ? others->probability : 0.0);
+  return among > 0.0 ? (unknown->probability - unknown->like_pairs) / among : 0.0;
 }
 
 double left_by_best(const std::vector<Hypothesis>& said) {
@@ -111,8 +122,8 @@ std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction
     for (auto& [mean, interval] : said[k].magnitudes)
       interval = {mean + widening * (interval.first - mean), mean + widening * (interval.second - mean)};
   }
+  if (said_of(said, kUnknown)) add_what_is_like_pairs(said, correction.temperature);
   said = with_others_as_one(std::move(said));
-  add_what_is_like_pairs(said);
   std::stable_sort(said.begin(), said.end(),
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });
   return said;

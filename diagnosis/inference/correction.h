@@ -40,7 +40,8 @@ double upper_limit(const Magnitude& magnitude, const Correction& correction);
 
 /// Probabilities by tempered evidence, and intervals widened about their means. Pairs that were not run are
 /// one explanation, kOtherPairs; `unknown` has, beside its own, a share (kThresholds.like_pairs) of what
-/// pairs have: what is outside the library often does what two effects would.
+/// pairs have beyond the better of their effects: what is outside the library often does what two effects
+/// would.
 std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction);
 
 /// Why `unknown` is in the set of corrected explanations, as a clause; null where it is not. It is where it

@@ -32,6 +32,7 @@ struct Hypothesis {
   std::vector<Magnitude> magnitudes;  ///< one per effect
   double chi_squared = 0.0;           ///< at the best magnitudes
   bool run = true;                    ///< of a pair: it was run what they do together
+  double like_pairs = 0.0;  ///< of `unknown`, corrected(): probability of what does what two effects would
 };
 
 /// Effects that an explanation names: none in "none", "unknown" and kOtherPairs, two in "a+b".
