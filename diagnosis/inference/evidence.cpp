@@ -26,26 +26,22 @@ Weighed none(const ReducedSpace& space, const ReducedGap& gap) {
           beside_unknown(space, gap, nothing, fit.chi_squared)};
 }
 
-/// Of hypotheses that are alike before any data.
-double mean_evidence(const std::vector<Hypothesis>& hypotheses) {
-  std::vector<double> terms;
-  for (const auto& h : hypotheses) terms.push_back(h.log_evidence);
-  return log_sum(terms) - std::log(static_cast<double>(terms.size()));
+/// Logarithm of the mean evidence of what is alike before any data.
+double mean_of(const std::vector<double>& logs) {
+  return log_sum(logs) - std::log(static_cast<double>(logs.size()));
 }
 
 /// Something beside what is known, or, by chance, something that does what a known effect would.
 Hypothesis unknown(const std::vector<Weighed>& known, double like_known) {
-  std::vector<double> beside;
-  std::vector<Hypothesis> effects;
+  std::vector<double> beside, like;
   for (const auto& one : known) {
     beside.push_back(one.beside_unknown);
-    if (one.hypothesis.magnitudes.size() == 1) effects.push_back(one.hypothesis);
+    if (one.hypothesis.magnitudes.size() == 1) like.push_back(one.hypothesis.log_evidence);
   }
-  const double other = log_sum(beside) - std::log(static_cast<double>(beside.size()));
+  const double other = mean_of(beside);
   Hypothesis found{"unknown", other, 0.0, {}, known.front().hypothesis.chi_squared};
-  if (!effects.empty())
-    found.log_evidence =
-        log_sum({other + std::log(1.0 - like_known), mean_evidence(effects) + std::log(like_known)});
+  if (!like.empty())
+    found.log_evidence = log_sum({other + std::log(1.0 - like_known), mean_of(like) + std::log(like_known)});
   return found;
 }
 
@@ -95,13 +91,13 @@ Signature with_visible(Signature reduced) {
 
 Weigher::Weigher(const Gap& gap, const std::vector<Signature>& signatures,
                  const std::vector<Together>& together, const Priors& priors, Pairs which)
-    : space_(gap, signatures), priors_(priors), which_(which) {
+    : space_(gap, signatures), priors_(priors) {
   for (const auto& signature : signatures) reduced_.push_back(with_visible(space_.reduced(signature)));
   for (const auto& one : reduced_) singles_.emplace_back(std::vector{one}, std::nullopt, space_);
   for (std::size_t a = 0; a < reduced_.size(); ++a)
     for (std::size_t b = a + 1; b < reduced_.size(); ++b) {
       auto run = together_of(together, reduced_[a], reduced_[b], space_);
-      if (run || which != Pairs::run) pairs_.push_back({a, b, std::move(run)});
+      if (run || which == Pairs::all) pairs_.push_back({a, b, std::move(run)});
     }
 }
 

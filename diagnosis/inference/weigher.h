@@ -45,7 +45,6 @@ class Weigher {
 
   ReducedSpace space_;
   Priors priors_;
-  Pairs which_;
   std::vector<Signature> reduced_;
   std::deque<MagnitudeGrid> singles_;
   std::vector<Pair> pairs_;
