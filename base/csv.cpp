@@ -39,6 +39,12 @@ T parse(const std::string& text, const std::string& where, const std::string& co
   return value;
 }
 
+/// The library looks for the end of a last line beyond the text, at whatever lies there.
+std::string ended_lines(std::string text) {
+  if (!text.empty() && text.back() != '\n') text += '\n';
+  return text;
+}
+
 }  // namespace
 
 std::string CsvTable::where(std::size_t row) const {
@@ -70,7 +76,7 @@ std::vector<long long> CsvTable::integers(const std::string& column) const {
 
 CsvTable read_csv(const fs::path& path, const std::vector<std::string>& required,
                   const std::vector<std::string>& optional) {
-  require_readable(path);
+  const std::string text = ended_lines(read_text(path));
   std::vector<std::string> names = required;
   names.insert(names.end(), optional.begin(), optional.end());
   if (names.size() > kMaxColumns) throw std::logic_error("read_csv: more columns asked for than it can read");
@@ -78,7 +84,7 @@ CsvTable read_csv(const fs::path& path, const std::vector<std::string>& required
   CsvTable table;
   table.path_ = path;
   try {
-    Reader reader(path.string());
+    Reader reader(path.string(), text.data(), text.data() + text.size());
     std::apply(
         [&](const auto&... name) {
           reader.read_header(io::ignore_missing_column | io::ignore_extra_column, name...);

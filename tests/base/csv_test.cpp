@@ -1,8 +1,10 @@
 #include "base/csv.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "base/error.h"
@@ -22,6 +24,17 @@ TEST(Csv, ReadsColumnsByNameInAnyOrder) {
   EXPECT_EQ(table.numbers("a"), (std::vector<double>{1.0, -3.0}));
   EXPECT_EQ(table.numbers("b"), (std::vector<double>{2.0, 4.5e-3}));
   EXPECT_FALSE(table.has("c"));
+}
+
+// Large blocks are mapped anew, full of zeros, unless the allocator is told not to, as others do not.
+TEST(Csv, EndsWithTheFileWhateverLiesBeyondIt) {
+  ::mallopt(M_MMAP_MAX, 0);
+  ::mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  ScratchFolder folder;
+  write_text(folder / "other.csv", "c,d\n1,2\n3,4\n");
+  write_text(folder / "unended.csv", "a,b\n1,2");
+  EXPECT_THROW(read_csv(folder / "other.csv", {"a", "b"}), BadInput);
+  EXPECT_EQ(read_csv(folder / "unended.csv", {"a", "b"}).numbers("b"), std::vector<double>{2.0});
 }
 
 struct BadTable {
