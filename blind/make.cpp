@@ -76,11 +76,12 @@ std::string work_ahead(const CaseFolders& folders, const Split& split, std::size
   double steps = 0.0;
   for (const std::size_t number : numbers) steps += expected_particle_steps(split, plans[number]);
   const double seconds = steps / sweep::kStatedRate;
+  const std::size_t packings = packing == 0 ? split.packings.size() : 1;
   return fmt::format(
-      "{}: {} cases on {} packings, {} of them made; {} to make: about {:.3g} particle-steps, {:.0f} min of "
+      "{}: {} cases on {} packing{}, {} of them made; {} to make: about {:.3g} particle-steps, {:.0f} min of "
       "one core, {:.0f} min on {} cores",
-      split.name, asked, packing == 0 ? split.packings.size() : 1, asked - numbers.size(), numbers.size(),
-      steps, seconds / 60.0, seconds / 60.0 / static_cast<double>(cores), cores);
+      split.name, asked, packings, packings == 1 ? "" : "s", asked - numbers.size(), numbers.size(), steps,
+      seconds / 60.0, seconds / 60.0 / static_cast<double>(cores), cores);
 }
 
 }  // namespace pendular::blind

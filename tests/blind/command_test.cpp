@@ -42,7 +42,7 @@ TEST(BlindCommand, DryRunTellsAndMakesNothing) {
   ScratchFolder folder;
   const Outcome told = run(folder, "make " + kSplit + " -o out --dry-run");
   EXPECT_EQ(told.status, 0) << told.errors;
-  EXPECT_NE(told.errors.find("3 cases on 1 packings"), std::string::npos) << told.errors;
+  EXPECT_NE(told.errors.find("3 cases on 1 packing,"), std::string::npos) << told.errors;
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
@@ -52,7 +52,7 @@ TEST(BlindCommand, MakesThePackingThatIsAskedFor) {
   const Outcome all = run(folder, "make " + split + " -o out --dry-run"),
                 one = run(folder, "make " + split + " -o out --dry-run --packing 4");
   EXPECT_NE(all.errors.find("300 cases on 6 packings"), std::string::npos) << all.errors;
-  EXPECT_NE(one.errors.find("50 cases on 1 packings"), std::string::npos) << one.errors;
+  EXPECT_NE(one.errors.find("50 cases on 1 packing,"), std::string::npos) << one.errors;
   const Outcome none = run(folder, "make " + split + " -o out --packing 7");
   EXPECT_EQ(none.status, 2);
   EXPECT_NE(none.errors.find("--packing: found 7, expected at most 6"), std::string::npos) << none.errors;
