@@ -15,8 +15,10 @@ const std::vector<NumberKey>& number_keys() {
   const double most_n_per_m = 1e12, most_pa = 1e13;
   const double tiny = std::numeric_limits<double>::min();
   const double um = 1e-6, mm_s = 1e-3;
+// A member's name takes no parentheses. NOLINTBEGIN(bugprone-macro-parentheses)
 #define PENDULAR_AT(field) [](Sample& s) -> double& { return s.field; }
 #define PENDULAR_OPTIONAL(field) [](Sample& s) -> std::optional<double>& { return s.field; }
+  // NOLINTEND(bugprone-macro-parentheses)
   static const std::vector<NumberKey> keys = {
       {"beads.diameter_um", um, 0.1, 1e5, PENDULAR_AT(beads.diameter), "mean bead diameter D"},
       {"beads.diameter_sd_um", um, 0.0, 1e4, PENDULAR_AT(beads.diameter_sd), "spread of bead diameters"},
@@ -317,8 +319,7 @@ double sample_key(const Sample& sample, const std::string& name) {
 namespace {
 
 /// A number in the key's unit that makes the field's value again, bit for bit; the plainest of them.
-std::optional<double> exact_number(const NumberKey& key, const Sample& sample) {
-  const double in_unit = *key.get(sample);
+std::optional<double> exact_number(const NumberKey& key, double in_unit, const Sample& sample) {
   const auto beside = [&](double towards) { return std::nextafter(in_unit, towards); };
   const double plain = std::strtod(fmt::format("{:.15g}", in_unit).c_str(), nullptr);
   for (const double candidate :
@@ -333,12 +334,12 @@ std::optional<double> exact_number(const NumberKey& key, const Sample& sample) {
 }
 
 /// The same, or for a value that no number in the key's unit makes, that of the nearest value.
-double number_for(const NumberKey& key, const Sample& sample) {
-  if (const auto exact = exact_number(key, sample)) return *exact;
-  const double near = std::clamp(*key.get(sample), key.lowest, key.highest);
+double number_for(const NumberKey& key, double in_unit, const Sample& sample) {
+  if (const auto exact = exact_number(key, in_unit, sample)) return *exact;
+  const double near = std::clamp(in_unit, key.lowest, key.highest);
   Sample rounded = sample;
   key.set(rounded, near, key.name);
-  return exact_number(key, rounded).value_or(near);
+  return exact_number(key, near, rounded).value_or(near);
 }
 
 }  // namespace
@@ -347,7 +348,7 @@ std::vector<SampleSetting> sample_settings(const Sample& sample) {
   Sample copy = sample;
   std::vector<SampleSetting> settings;
   for (const auto& key : number_keys())
-    if (key.in_si(sample)) settings.emplace_back(key.name, number_for(key, sample));
+    if (const auto value = key.get(sample)) settings.emplace_back(key.name, number_for(key, *value, sample));
   for (const auto& key : word_keys()) settings.emplace_back(key.name, key.field(copy));
   for (const auto& key : strains_keys()) settings.emplace_back(key.name, key.field(copy));
   for (const auto& key : switch_keys()) settings.emplace_back(key.name, key.field(copy));

@@ -72,7 +72,7 @@ Given given_in(std::string_view text, const std::string& name, const std::vector
     }
   }
   for (const auto& [key, value] : settings) {
-    set_sample_key(sample, key, value, name + ": " + key);
+    set_sample_key(sample, key, value, fmt::format("{}: {}", name, key));
     given.keys.insert(key);
   }
   // The paper treats a platen "the same way as another particle" unless the experimenter knows better.

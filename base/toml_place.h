@@ -64,15 +64,15 @@ inline double number_at(const TomlPlace& place) {
 }
 
 inline std::string word_at(const TomlPlace& place) {
-  if (!place.node.is_string())
-    bad_input("{}: found {}, expected a string", place.str(), type_name(place.node));
-  return place.node.value<std::string>().value();
+  const auto* word = place.node.as_string();
+  if (!word) bad_input("{}: found {}, expected a string", place.str(), type_name(place.node));
+  return word->get();
 }
 
 /// A file that is there, named from the folder of the file that names it.
 inline fs::path file_at(const TomlPlace& place) {
   const std::string given = word_at(place);
-  const fs::path path = fs::path(place.file).parent_path() / given;
+  fs::path path = fs::path(place.file).parent_path() / given;
   if (given.empty() || !is_file(path))
     bad_input("{}: found \"{}\", expected a file; {} is none", place.str(), given, path.string());
   return path;
@@ -81,8 +81,8 @@ inline fs::path file_at(const TomlPlace& place) {
 /// A value of a sample's key, of any kind that there is.
 inline SampleValue value_at(const TomlPlace& place) {
   if (place.node.is_number()) return number_at(place);
-  if (place.node.is_boolean()) return place.node.value<bool>().value();
-  if (place.node.is_string()) return place.node.value<std::string>().value();
+  if (const auto* truth = place.node.as_boolean()) return truth->get();
+  if (const auto* word = place.node.as_string()) return word->get();
   const auto* array = place.node.as_array();
   if (!array)
     bad_input("{}: found {}, expected a number, a word, true or false, or an array", place.str(),

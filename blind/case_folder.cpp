@@ -175,7 +175,7 @@ void make_case(const CaseFolders& folders, const Split& split, const CasePlan& p
 
 std::string published_seal(const fs::path& case_folder) {
   const std::string text = read_text(case_folder / "seal.txt");
-  const std::string hash = text.substr(0, text.find(' '));
+  std::string hash = text.substr(0, text.find(' '));
   if (hash.size() != 64)
     bad_input("{}: found \"{}\", expected a SHA-256", (case_folder / "seal.txt").string(),
               hash.substr(0, 80));

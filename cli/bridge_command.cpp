@@ -92,7 +92,7 @@ std::vector<double> values_of(const std::string& option, const std::string& text
                  count = to_number(option, parts[2], text);
     if (!(from < to) || count != std::floor(count) || count < 2.0 || count > static_cast<double>(kMostRows))
       bad_list(option, text);
-    for (double k = 0.0; k < count; k += 1.0)
+    for (int k = 0; k < static_cast<int>(count); ++k)
       values.push_back(unit * (from + (to - from) * k / (count - 1.0)));
   }
   return values;

@@ -25,7 +25,7 @@ std::string companion() {
 }
 
 std::string display() {
-  if (const std::string server = found_on_path("Xvfb"); !server.empty()) return server;
+  if (std::string server = found_on_path("Xvfb"); !server.empty()) return server;
   const char* named = std::getenv("DISPLAY");
   return named && *named ? fmt::format("DISPLAY={}", named) : "";
 }

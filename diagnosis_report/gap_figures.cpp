@@ -95,7 +95,7 @@ Drawn map_figure(const Diagnosis& d) {
 }
 
 std::string label_of(const Feature& feature) {
-  const std::string name = feature_label(feature);
+  std::string name = feature_label(feature);
   if (feature.strain_to <= 0.0) return name;
   return fmt::format("{}, {:.2g}\u2013{:.2g} %", name, 100.0 * feature.strain_from,
                      100.0 * feature.strain_to);

@@ -82,7 +82,7 @@ Trace share_below_at(const Columns& columns, const std::string& name, double low
 
 /// u_z over z at the last strain.
 Trace rise(const Columns& columns) {
-  const Trace all = columns_as(columns, "z_um", "uz_um", "");
+  Trace all = columns_as(columns, "z_um", "uz_um", "");
   const auto strain = columns.find("strain");
   if (strain == columns.end() || strain->second.empty()) return all;
   const double last = *std::max_element(strain->second.begin(), strain->second.end());

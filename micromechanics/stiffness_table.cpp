@@ -114,9 +114,10 @@ double StiffnessTable::measure() const {
   // Between Chebyshev points and at the ends of a range the error of a polynomial has its extrema.
   constexpr int kSide = 4;
   const auto place = [&](const Range& range, Index points, Index k) {
+    const Index extremum = k * points / (kSide - 1);
     return 0.5 * (range.low + range.high) -
            0.5 * (range.high - range.low) *
-               std::cos(M_PI * static_cast<double>(k * points / (kSide - 1)) / static_cast<double>(points));
+               std::cos(M_PI * static_cast<double>(extremum) / static_cast<double>(points));
   };
   std::vector<double> errors(kSide * kSide);
   for_blocks(errors.size(), 1, [&](std::size_t check, std::size_t) {

@@ -27,12 +27,13 @@ bool inside(const Vec3& p, const Specimen& s) {
 void add_radial_distribution(const Packing& packing, double diameter, Structure& structure) {
   double farthest = kFarthest, references = 0.0, within = 0.0;
   std::vector<bool> reference(packing.beads.size());
-  for (; farthest >= 1.5; farthest -= 0.5) {
+  while (farthest >= 1.5) {
     const Specimen core = core_of(packing.specimen, farthest * diameter);
     references = 0.0;
     for (std::size_t k = 0; k < reference.size(); ++k)
       references += reference[k] = inside(packing.beads[k].centre, core);
     if (references >= kLeastReferences) break;
+    farthest -= 0.5;
   }
   if (references < kLeastReferences) return;
   // Centres are no nearer to walls than a radius: their density is that of the layer inside.

@@ -19,6 +19,7 @@ namespace pendular::phantom {
 namespace {
 
 constexpr int slab = 16;  // slices finished together
+constexpr int kMostVoxelsAlong = std::numeric_limits<int>::max() / 2;
 
 // Purposes of random numbers, each with a stream of its own.
 enum class Stream : std::uint64_t { necks, white_noise, correlated_noise, rings };
@@ -62,8 +63,7 @@ Volume empty_volume(const Specimen& specimen, const Sample::Phantom& settings) {
       across * across * (along * settings.bits / 8.0 + sizeof(float) * (noise_slices + 16.0));
   const double memory =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  if (needed > memory || across > std::numeric_limits<int>::max() / 2 ||
-      along > std::numeric_limits<int>::max() / 2)
+  if (needed > memory || across > kMostVoxelsAlong || along > kMostVoxelsAlong)
     throw ComputationFailed(fmt::format(
         "phantom: {:.0f} x {:.0f} x {:.0f} voxels need {:.3g} GB of memory, this machine has {:.3g} GB: "
         "choose a larger phantom.voxel_um or a smaller specimen",
@@ -249,7 +249,7 @@ class Scanner {
       if (settings_.noise > 0.0)
         for (std::size_t x = 0; x < width; ++x)
           value[x] += static_cast<float>(settings_.noise * random_normal(noise_seed, first + x));
-      for (std::size_t x = 0; x < width; ++x)
+      for (std::size_t x = 0; x < width; ++x)  // never negative. NOLINTNEXTLINE(bugprone-incorrect-roundings)
         pixels[first + x] = static_cast<Pixel>(std::clamp(air + edge * value[x], 0.0F, full) + 0.5F);
     }
   }

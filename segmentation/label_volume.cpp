@@ -51,9 +51,10 @@ class Owners {
   /// Those whose surface is no further from the cell's middle than the nearest one and the cell's diagonal.
   std::vector<std::uint32_t> candidates_of(std::size_t cell) const {
     const double w = static_cast<double>(width_);
-    const Vec3 middle = w * Vec3(static_cast<double>(cell % cells_[0]) + 0.5,
-                                 static_cast<double>(cell / cells_[0] % cells_[1]) + 0.5,
-                                 static_cast<double>(cell / (cells_[0] * cells_[1])) + 0.5);
+    const std::size_t row = cell / cells_[0], layer = row / cells_[1];
+    const Vec3 middle =
+        w * Vec3(static_cast<double>(cell % cells_[0]) + 0.5, static_cast<double>(row % cells_[1]) + 0.5,
+                 static_cast<double>(layer) + 0.5);
     std::vector<double> distance;
     for (const Owner& ball : balls_) distance.push_back((middle - ball.centre).norm() - ball.radius);
     const double limit = *std::min_element(distance.begin(), distance.end()) + std::sqrt(3.0) * w;

@@ -131,7 +131,7 @@ Vec3 densest(const std::vector<Vec3>& vectors, double width) {
       weights += weight, sum += weight * vector;
     }
     if (weights == 0.0) return at;
-    const Vec3 next = sum / weights;
+    Vec3 next = sum / weights;
     if ((next - at).norm() < 1e-9) return next;
     at = next;
   }

@@ -57,8 +57,9 @@ std::vector<std::string> ticks_of(const Axis& axis) {
       ticks.push_back(tick(round.values[k], round.labels[k]));
     return ticks;
   }
-  for (double power = std::ceil(std::log10(axis.low) - 1e-9); power <= std::log10(axis.high) + 1e-9;
-       power += 1.0)
+  const auto first = static_cast<int>(std::ceil(std::log10(axis.low) - 1e-9)),
+             last = static_cast<int>(std::floor(std::log10(axis.high) + 1e-9));
+  for (int power = first; power <= last; ++power)
     ticks.push_back(tick(std::pow(10.0, power), fmt::format("{:g}", std::pow(10.0, power))));
   return ticks;
 }

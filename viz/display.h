@@ -6,7 +6,8 @@
 
 #include "base/process.h"
 
-struct _XDisplay;  // of Xlib, whose header defines names like Status and None
+// Xlib's own header defines names like Status and None. NOLINTNEXTLINE(bugprone-reserved-identifier)
+struct _XDisplay;
 
 namespace pendular::viz {
 

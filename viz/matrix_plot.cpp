@@ -93,10 +93,9 @@ void add_values(Chart& chart, const Matrix& matrix, double end) {
   for (std::size_t k = 0; k < matrix.values.size(); ++k) {
     const double value = matrix.values[k];
     if (!std::isfinite(value)) continue;
-    const auto row = static_cast<double>(k / matrix.columns.size()),
-               column = static_cast<double>(k % matrix.columns.size());
-    chart.add_words(value_label(value), column + 0.5, -(row + 0.5), kValueType,
-                    std::fabs(value) > 0.6 * end ? kWhite : kInk);
+    const std::size_t row = k / matrix.columns.size(), column = k % matrix.columns.size();
+    chart.add_words(value_label(value), static_cast<double>(column) + 0.5, -(static_cast<double>(row) + 0.5),
+                    kValueType, std::fabs(value) > 0.6 * end ? kWhite : kInk);
   }
 }
 

@@ -59,7 +59,7 @@ std::string attribute(hid_t object, const char* name) {
 bool exists(hid_t file, const std::string& name) {
   for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
     const std::string part = name.substr(0, end);
-    if (part != "/" && part != "" && H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return false;
+    if (part != "/" && !part.empty() && H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return false;
     if (end == std::string::npos) break;
   }
   return H5Oexists_by_name(file, name.c_str(), H5P_DEFAULT) > 0;
@@ -142,7 +142,7 @@ std::string default_signal(hid_t file) {
     if (!group.open() || is_dataset(group)) return "";
     const std::string next = attribute(group, "default");
     if (next.empty()) return name == "/" ? "" : signal_of(group, name);
-    name = next.front() == '/' ? next : (name == "/" ? name : name + "/") + next;
+    name = next.front() == '/' ? next : fmt::format("{}/{}", name == "/" ? "" : name, next);
   }
   return "";
 }
@@ -151,7 +151,7 @@ std::string unnamed(hid_t file, const Hdf5Address& address) {
   if (holds_projections(file))
     bad_input("{}: found projections (NXtomo), expected a reconstructed volume: name its dataset, {}:/...",
               address.file.string(), address.file.filename().string());
-  if (const std::string name = default_signal(file); !name.empty()) return name;
+  if (std::string name = default_signal(file); !name.empty()) return name;
   const auto volumes = volumes_in(file);
   if (volumes.size() != 1)
     bad_input("{}: found no name of a dataset ({}:/...), expected one {}", address.file.string(),

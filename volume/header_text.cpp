@@ -135,7 +135,7 @@ std::array<double, 3> edges_of(const std::string& where, const std::vector<doubl
 }
 
 fs::path data_file(const std::string& where, const fs::path& header, const std::string& name) {
-  const fs::path file = header.parent_path() / name;
+  fs::path file = header.parent_path() / name;
   std::error_code error;
   if (name.empty() || name.find('\0') != std::string::npos || !fs::is_regular_file(file, error))
     bad_input("{}: found no file '{}', expected the voxels there", where, file.string());

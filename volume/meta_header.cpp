@@ -52,7 +52,8 @@ bool is_local(const std::string& name) {
 
 /// The names of a LIST, of a pattern with its numbers, or the one name that there is.
 std::vector<std::string> data_names(HeaderText& text, const HeaderFields& fields, std::size_t slices) {
-  const std::string value = fields.text(kData), where = fields.where(kData);
+  const std::string& value = fields.text(kData);
+  const std::string where = fields.where(kData);
   const auto words = words_of(value);
   if (words.empty()) bad_input("{}: found no name, expected a file", where);
   if (words[0] == "LIST") {

@@ -74,6 +74,7 @@ void convert(const std::vector<char>& raw, itk::IOComponentEnum type, T* target,
     for (std::size_t k = 0; k < count; ++k) {
       Stored value;
       std::memcpy(&value, raw.data() + k * sizeof(Stored), sizeof(Stored));
+      // To whole numbers from their own type alone (kept_type). NOLINTNEXTLINE(bugprone-signed-char-misuse)
       target[k] = static_cast<T>(value);
     }
   };

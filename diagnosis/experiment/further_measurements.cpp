@@ -133,10 +133,9 @@ Columns with_returns(const Columns& columns, const std::vector<double>& turns) {
     if (next == turns.size() || strain[k] < turns[next]) continue;
     ++next;
     const double step = strain.front(), depth = kReturn * strain[k];
-    for (double back = step; back <= depth; back += step)
-      add(strain[k] - back, stress[k] * (1.0 - back / depth));
-    for (double back = depth - step; back > 0.0; back -= step)
-      add(strain[k] - back, stress[k] * (1.0 - back / depth));
+    const auto add_back = [&](double back) { add(strain[k] - back, stress[k] * (1.0 - back / depth)); };
+    for (int row = 1; row * step <= depth; ++row) add_back(row * step);
+    for (int row = 1; row * step < depth; ++row) add_back(depth - row * step);
   }
   return course;
 }

@@ -21,8 +21,10 @@ constexpr double kAwayFromNeighbour = 50.0 * M_PI / 180.0;
 /// Grey step per pixel along a line, averaged over one pixel of it.
 std::vector<double> slopes(const SplineWindow& spline, const Point& from, const Point& along, double length) {
   std::vector<double> result;
-  for (double s = 0.0; s <= length; s += kProfileStep)
+  for (int k = 0; k * kProfileStep <= length; ++k) {
+    const double s = k * kProfileStep;
     result.push_back(spline.at(from + (s + 0.5) * along).value - spline.at(from + (s - 0.5) * along).value);
+  }
   return result;
 }
 

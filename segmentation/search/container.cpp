@@ -175,7 +175,8 @@ std::optional<Disc> tube_of(const Grid<float>& grey, const std::vector<MeanAndSp
     const double from = busy.radius - std::max(4.0, 0.06 * busy.radius),
                  to = busy.radius + std::max(6.0, 0.08 * busy.radius);
     std::vector<double> profile;
-    for (double r = from; r < to; r += step) {
+    for (int k = 0; from + k * step < to; ++k) {
+      const double r = from + k * step;
       const double mean = mean_at(grey, columns, busy.x + r * c, busy.y + r * s);
       if (std::isnan(mean)) break;
       profile.push_back(mean);

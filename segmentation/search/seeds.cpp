@@ -215,8 +215,10 @@ double typical_radius(const std::vector<Seed>& seeds) {
   }
   std::sort(radii.begin(), radii.end());
   double sum = 0.0;
-  for (const double radius : radii)
-    if ((sum += std::pow(radius, 3)) >= 0.5 * total) return radius;
+  for (const double radius : radii) {
+    sum += std::pow(radius, 3);
+    if (sum >= 0.5 * total) return radius;
+  }
   return radii.back();
 }
 
