@@ -1,5 +1,5 @@
 // The reader of tables (fast-cpp-csv-parser) takes a block of 48 MiB for each file. Under the address
-// sanitizer, to map it and give it back takes a thousand times as long as to read a table of a fuzzer's size;
+// sanitizer, to map it and give it back takes hundreds of times as long as to read a table of a fuzzer's size;
 // so one such block is kept. While nobody has it, its beginning, where the file lay, is poisoned.
 
 #include <sanitizer/allocator_interface.h>
