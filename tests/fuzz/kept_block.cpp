@@ -1,6 +1,6 @@
 // The reader of tables (fast-cpp-csv-parser) takes a block of 48 MiB for each file. Under the address
-// sanitizer, to map it and give it back takes hundreds of times as long as to read a table of a fuzzer's size;
-// so one such block is kept. While nobody has it, its beginning, where the file lay, is poisoned.
+// sanitizer, to map it and give it back takes hundreds of times as long as to read a table of a fuzzer's
+// size; so one such block is kept. While nobody has it, its beginning, where the file lay, is poisoned.
 
 #include <sanitizer/allocator_interface.h>
 #include <sanitizer/asan_interface.h>
