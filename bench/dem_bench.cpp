@@ -54,6 +54,21 @@ void measure(benchmark::State& state, int threads, int times, const std::string&
   state.counters["pairs"] = static_cast<double>(simulation.pairs.size());
 }
 
+/// Pairs of sample A listed anew, where one bead in fifty flies as after failure.
+void measure_listing(benchmark::State& state, int threads) {
+  set_threads(threads);
+  dem_core::Simulation simulation = loaded_specimen(1);
+  for (std::size_t k = 0; k < simulation.beads.size(); k += 50)
+    simulation.beads.velocity[k] = Vec3(1.0, 0.5, 0.0);
+  dem_core::Stepper stepper(simulation);
+  for (auto _ : state) {
+    stepper.store();
+    dem_core::list_pairs(simulation);
+    stepper.load();
+  }
+  state.counters["pairs"] = static_cast<double>(simulation.pairs.size());
+}
+
 void add(const std::string& name, int threads, int times, const std::string& set) {
   benchmark::RegisterBenchmark(name.c_str(),
                                [=](benchmark::State& state) { measure(state, threads, times, set); })
@@ -72,6 +87,14 @@ int main(int argc, char** argv) {
   const auto sets = dem_core::instruction_sets();
   for (const auto& set : sets) add("sample_A/threads:1/" + set, 1, 1, set);
   add("sample_A/threads:2/" + sets.front(), 2, 1, sets.front());
+  for (int threads : {1, 2})
+    benchmark::RegisterBenchmark(("listing/threads:" + std::to_string(threads)).c_str(),
+                                 [=](benchmark::State& state) { measure_listing(state, threads); })
+        ->UseRealTime()
+        ->Unit(benchmark::kMicrosecond)
+        ->MinTime(0.3)
+        ->Repetitions(5)
+        ->ReportAggregatesOnly();
   for (int threads : {1, 2})
     add("ten_times_sample_A/threads:" + std::to_string(threads) + "/" + sets.front(), threads, 10,
         sets.front());

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -17,7 +19,7 @@ namespace {
 
 // Margins of a listing: what a bead at its present speed moves in so many steps, between two shares of the
 // mean diameter. The least one leaves room for beads that tremble, the largest keeps lists short.
-constexpr double kStepsBetweenListings = 1500.0, kLeastMargin = 0.005, kLargestMargin = 0.3;
+constexpr double kStepsBetweenListings = 800.0, kLeastMargin = 0.002, kLargestMargin = 0.3;
 
 double ball_mass(double density, double diameter) {
   return density * M_PI / 6.0 * diameter * diameter * diameter;
@@ -125,6 +127,49 @@ Listing listing_of(const Simulation& simulation, double least) {
   return listing;
 }
 
+int first_of(const Pair& pair) {
+  return pair.i;
+}
+int first_of(const IndexPair& pair) {
+  return pair.first;
+}
+
+/// Of sorted pairs those whose first bead is one of these.
+template <typename P>
+std::span<const P> pairs_of(const std::vector<P>& pairs, std::size_t first, std::size_t last) {
+  const auto before = [](const P& pair, std::size_t bead) {
+    return static_cast<std::size_t>(first_of(pair)) < bead;
+  };
+  const auto begin = std::lower_bound(pairs.begin(), pairs.end(), first, before);
+  return {begin, std::lower_bound(begin, pairs.end(), last, before)};
+}
+
+/// Pairs that are near, with what the old list knows of them. Of the old list a pair drops out where it is
+/// neither bonded nor near; one whose glass touches only after an initial overlap (touch < 0) is remembered
+/// whatever its distance.
+std::vector<Pair> with_old(std::span<const IndexPair> near, std::span<const Pair> old) {
+  std::vector<Pair> listed;
+  listed.reserve(near.size() + near.size() / 8);
+  auto next = old.begin();
+  const auto keep_old_before = [&](const IndexPair& limit) {
+    for (; next != old.end() && IndexPair(next->i, next->j) < limit; ++next)
+      if (next->bond >= 0 || next->properties.touch < 0.0) listed.push_back(*next);
+  };
+  for (const auto& [i, j] : near) {
+    keep_old_before({i, j});
+    if (next != old.end() && next->i == i && next->j == j) {
+      listed.push_back(*next++);
+    } else {
+      Pair pair;
+      pair.i = i;
+      pair.j = j;
+      listed.push_back(pair);
+    }
+  }
+  keep_old_before({std::numeric_limits<int>::max(), 0});
+  return listed;
+}
+
 }  // namespace
 
 double BeadStates::mean_diameter() const {
@@ -190,28 +235,19 @@ void list_pairs(Simulation& simulation, double least) {
   for (std::size_t k = 0; k < beads.size(); ++k)
     reach.push_back(2.0 * (beads.radius[k] + simulation.listing.margin[k]));
   const auto near = pairs_within(beads.position, reach, 0.0);
-  std::vector<Pair> listed;
-  listed.reserve(near.size() + simulation.bonds.size() / 8);
-  auto old = simulation.pairs.begin();
-  // A pair drops out where it is neither bonded nor near; one whose glass touches only after an initial
-  // overlap (touch < 0) is remembered whatever its distance.
-  auto keep_old_before = [&](const IndexPair& next) {
-    for (; old != simulation.pairs.end() && IndexPair(old->i, old->j) < next; ++old)
-      if (old->bond >= 0 || old->properties.touch < 0.0) listed.push_back(*old);
-  };
-  for (const auto& [i, j] : near) {
-    keep_old_before({i, j});
-    if (old != simulation.pairs.end() && old->i == i && old->j == j) {
-      listed.push_back(*old++);
-    } else {
-      Pair pair;
-      pair.i = i;
-      pair.j = j;
-      listed.push_back(pair);
-    }
-  }
-  keep_old_before({std::numeric_limits<int>::max(), 0});
-  simulation.pairs = std::move(listed);
+  constexpr std::size_t kBeadsPerTask = 512;
+  std::vector<std::vector<Pair>> parts((beads.size() + kBeadsPerTask - 1) / kBeadsPerTask);
+  for_blocks(beads.size(), kBeadsPerTask, [&](std::size_t first, std::size_t last) {
+    parts[first / kBeadsPerTask] =
+        with_old(pairs_of(near, first, last), pairs_of(std::as_const(simulation.pairs), first, last));
+  });
+  std::vector<std::size_t> begin(parts.size() + 1, 0);
+  for (std::size_t k = 0; k < parts.size(); ++k) begin[k + 1] = begin[k] + parts[k].size();
+  simulation.pairs.resize(begin.back());
+  for_blocks(parts.size(), 1, [&](std::size_t k, std::size_t) {
+    std::copy(parts[k].begin(), parts[k].end(),
+              simulation.pairs.begin() + static_cast<std::ptrdiff_t>(begin[k]));
+  });
 }
 
 Energies energies(const Simulation& simulation) {

@@ -4,69 +4,76 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 #include "base/parallel.h"
 
 namespace pendular {
 namespace {
 
-/// A grid of cubic cells no smaller than `reach`, so that all within reach of a point lie in its 27 cells.
+/// Points sorted by the cubic cells of a grid, cells along x next to each other.
 class CellGrid {
  public:
-  CellGrid(std::span<const Vec3> points, double reach) {
-    Vec3 highest = points.front();
-    lowest_ = points.front();
-    for (const auto& point : points) {
-      lowest_ = lowest_.cwiseMin(point);
-      highest = highest.cwiseMax(point);
+  struct Member {
+    Vec3 centre;
+    double diameter;
+    int point;
+  };
+
+  /// Cells are as large as `size`, or larger.
+  CellGrid(std::span<const Vec3> centres, std::span<const double> diameters, double size) {
+    Vec3 highest = centres.front();
+    lowest_ = centres.front();
+    for (const auto& centre : centres) {
+      lowest_ = lowest_.cwiseMin(centre);
+      highest = highest.cwiseMax(centre);
     }
-    set_cells(highest - lowest_, reach, points.size());
+    set_cells(highest - lowest_, size, centres.size());
     first_.assign(count_[0] * count_[1] * count_[2] + 1, 0);
-    std::vector<std::size_t> cell(points.size());
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      cell[k] = index(at(points[k]));
+    std::vector<std::size_t> cell(centres.size());
+    for (std::size_t k = 0; k < centres.size(); ++k) {
+      cell[k] = index(at(centres[k]));
       ++first_[cell[k] + 1];
     }
-    for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
-    members_.resize(points.size());
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    members_.resize(centres.size());
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    for (std::size_t k = 0; k < points.size(); ++k) members_[next[cell[k]]++] = static_cast<int>(k);
+    for (std::size_t k = 0; k < centres.size(); ++k)
+      members_[next[cell[k]]++] = {centres[k], diameters[k], static_cast<int>(k)};
   }
 
-  /// Calls visit(j) for every point in the 27 cells around `point`.
+  std::span<const Member> members() const { return members_; }
+
+  /// Calls visit(members) for all members of the cells that a cube reaches from `centre`, row by row.
   template <typename Visit>
-  void around(const Vec3& point, const Visit& visit) const {
-    const Cell centre = at(point);
-    Cell from, to;
-    for (int axis = 0; axis < 3; ++axis) {
-      from[axis] = centre[axis] == 0 ? 0 : centre[axis] - 1;
-      to[axis] = std::min(centre[axis] + 1, count_[axis] - 1);
-    }
+  void around(const Vec3& centre, double reach, const Visit& visit) const {
+    const Vec3 half = Vec3::Constant((1.0 + 1e-6) * reach);  // more than what rounding takes
+    const Cell from = at(centre - half), to = at(centre + half);
     for (std::size_t z = from[2]; z <= to[2]; ++z)
       for (std::size_t y = from[1]; y <= to[1]; ++y) {
-        // Cells along x lie next to each other, so do their members.
         const std::size_t begin = first_[index({from[0], y, z})], end = first_[index({to[0], y, z}) + 1];
-        for (std::size_t m = begin; m < end; ++m) visit(members_[m]);
+        visit(members().subspan(begin, end - begin));
       }
   }
 
  private:
   using Cell = std::array<std::size_t, 3>;
 
-  /// Cells grow beyond `reach` where the points are few in a wide space, to keep the grid's memory linear.
-  void set_cells(const Vec3& extent, double reach, std::size_t points) {
+  /// Cells grow where the points are few in a wide space, to keep the grid's memory linear.
+  void set_cells(const Vec3& extent, double size, std::size_t points) {
     const double most_cells = 8.0 * static_cast<double>(points) + 64.0;
-    size_ = reach;
+    size_ = size;
     auto cells = [&] { return ((extent / size_).array().floor() + 1.0).prod(); };
     while (cells() > most_cells) size_ *= 1.3;
     for (int axis = 0; axis < 3; ++axis) count_[axis] = static_cast<std::size_t>(extent[axis] / size_) + 1;
   }
 
-  Cell at(const Vec3& point) const {
+  /// The cell of a place, or the nearest one.
+  Cell at(const Vec3& place) const {
     Cell cell;
     for (int axis = 0; axis < 3; ++axis)
-      cell[axis] =
-          std::min(static_cast<std::size_t>((point[axis] - lowest_[axis]) / size_), count_[axis] - 1);
+      cell[axis] = static_cast<std::size_t>(
+          std::clamp((place[axis] - lowest_[axis]) / size_, 0.0, static_cast<double>(count_[axis] - 1)));
     return cell;
   }
   std::size_t index(const Cell& cell) const { return (cell[2] * count_[1] + cell[1]) * count_[0] + cell[0]; }
@@ -75,36 +82,69 @@ class CellGrid {
   double size_ = 0.0;
   Cell count_{};
   std::vector<std::size_t> first_;
-  std::vector<int> members_;
+  std::vector<Member> members_;
 };
+
+constexpr std::size_t kBlock = 256;
+
+/// Pairs of blocks of members, each found from the larger of its two spheres, so that a few large ones do not
+/// widen the search of all.
+std::vector<std::vector<IndexPair>> find_pairs(const CellGrid& grid, double max_gap) {
+  const auto members = grid.members();
+  std::vector<std::vector<IndexPair>> found((members.size() + kBlock - 1) / kBlock);
+  for_blocks(members.size(), kBlock, [&](std::size_t first, std::size_t last) {
+    auto& pairs = found[first / kBlock];
+    std::size_t size = 0;
+    for (std::size_t m = first; m < last; ++m) {
+      const CellGrid::Member own = members[m];
+      const double reach = own.diameter + max_gap;
+      if (!(reach > 0.0)) continue;
+      grid.around(own.centre, reach, [&](std::span<const CellGrid::Member> row) {
+        if (size + row.size() > pairs.size()) pairs.resize(2 * (size + row.size()));
+        // Every pair is written and kept or not: whether it is near cannot be guessed.
+        for (const auto& other : row) {
+          const bool smaller = (other.diameter < own.diameter) |
+                               ((other.diameter == own.diameter) & (other.point > own.point));
+          const double separation =
+              (own.centre - other.centre).norm() - 0.5 * (own.diameter + other.diameter);
+          pairs[size] = std::minmax(own.point, other.point);
+          size += static_cast<std::size_t>(smaller & (separation < max_gap));
+        }
+      });
+    }
+    pairs.resize(size);
+  });
+  return found;
+}
+
+/// All pairs sorted: by counts of the first point, then among those of one.
+std::vector<IndexPair> sorted(const std::vector<std::vector<IndexPair>>& found, std::size_t points) {
+  std::vector<std::size_t> first(points + 1, 0);
+  for (const auto& pairs : found)
+    for (const auto& pair : pairs) ++first[pair.first + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<IndexPair> all(first.back());
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  for (const auto& pairs : found)
+    for (const auto& pair : pairs) all[next[pair.first]++] = pair;
+  for_blocks(points, kBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      std::sort(all.begin() + static_cast<std::ptrdiff_t>(first[k]),
+                all.begin() + static_cast<std::ptrdiff_t>(first[k + 1]));
+  });
+  return all;
+}
 
 }  // namespace
 
 std::vector<IndexPair> pairs_within(std::span<const Vec3> centres, std::span<const double> diameters,
                                     double max_gap) {
   if (centres.empty()) return {};
-  const double reach = *std::max_element(diameters.begin(), diameters.end()) + max_gap;
-  if (!(reach > 0.0)) return {};
-  const CellGrid grid(centres, reach);
-
-  constexpr std::size_t kBlock = 256;
-  std::vector<std::vector<IndexPair>> found((centres.size() + kBlock - 1) / kBlock);
-  for_blocks(centres.size(), kBlock, [&](std::size_t first, std::size_t last) {
-    auto& pairs = found[first / kBlock];
-    for (std::size_t i = first; i < last; ++i) {
-      const std::size_t begin = pairs.size();
-      grid.around(centres[i], [&](int j) {
-        if (static_cast<std::size_t>(j) <= i) return;
-        const double separation = (centres[i] - centres[j]).norm() - 0.5 * (diameters[i] + diameters[j]);
-        if (separation < max_gap) pairs.emplace_back(static_cast<int>(i), j);
-      });
-      std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(begin), pairs.end());
-    }
-  });
-
-  std::vector<IndexPair> all;
-  for (const auto& pairs : found) all.insert(all.end(), pairs.begin(), pairs.end());
-  return all;
+  if (!(*std::max_element(diameters.begin(), diameters.end()) + max_gap > 0.0)) return {};
+  double mean = 0.0;
+  for (const double diameter : diameters)
+    mean += std::max(diameter + max_gap, 0.0) / static_cast<double>(diameters.size());
+  return sorted(find_pairs(CellGrid(centres, diameters, 0.5 * mean), max_gap), centres.size());
 }
 
 }  // namespace pendular

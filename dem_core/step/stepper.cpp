@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
-#include <set>
+#include <span>
+#include <utility>
 
 #include "dem_core/step/flush_denormals.h"
 #include "dem_core/step/step_kernels.h"
@@ -13,7 +13,7 @@
 namespace pendular::dem_core {
 namespace {
 
-constexpr std::size_t kBeadsPerChunk = 256;
+constexpr std::size_t kBeadsPerChunk = 256, kPairsPerTask = 2048;
 
 // Pairs are listed anew where a bead has used this share of its margin: displacements are floats.
 constexpr float kOfMargin = 0.999F;
@@ -22,11 +22,14 @@ std::size_t filled_up(std::size_t size) {
   return (size + kBlock - 1) / kBlock * kBlock;
 }
 
-/// Every third bit of the result, from bit 0 up, is one of `cell`.
+/// Every third bit of the result, from bit 0 up, is one of the 21 of `cell`.
 std::uint64_t spread_bits(std::uint64_t cell) {
-  std::uint64_t spread = 0;
-  for (int bit = 0; bit < 21; ++bit) spread |= (cell >> bit & 1) << (3 * bit);
-  return spread;
+  std::uint64_t bits = cell & 0x1fffff;
+  bits = (bits | bits << 32) & 0x001f00000000ffff;
+  bits = (bits | bits << 16) & 0x001f0000ff0000ff;
+  bits = (bits | bits << 8) & 0x100f00f00f00f00f;
+  bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
+  return (bits | bits << 2) & 0x1249249249249249;
 }
 
 /// Place on a curve that keeps neighbours in space close (Morton's order of cells).
@@ -37,14 +40,19 @@ std::uint64_t place_on_curve(const Vec3& from_corner, double cell) {
   return place;
 }
 
-/// Appends full blocks of pairs so that pairs that follow each other in their order, and share a bead, are in
-/// blocks that follow each other: additions to one sum wait for each other. Pairs stay near their place.
-void append_apart(const std::vector<std::int64_t>& ordered, std::vector<std::int64_t>& to) {
+/// Puts full blocks of pairs into the table so that pairs that follow each other in their order, and share a
+/// bead, are in blocks that follow each other: additions to one sum wait for each other. Pairs stay near
+/// their place.
+void put_apart(std::span<const std::int64_t> ordered, std::int64_t* table) {
   constexpr std::size_t kSpread = 16;
-  for (std::size_t first = 0; first < ordered.size(); first += kSpread * kBlock) {
-    const std::size_t blocks = std::min(kSpread, (ordered.size() - first) / kBlock);
+  const std::size_t all = filled_up(ordered.size()) / kBlock;
+  for (std::size_t first = 0; first < all; first += kSpread) {
+    const std::size_t blocks = std::min(kSpread, all - first);
     for (std::size_t b = 0; b < blocks; ++b)
-      for (std::size_t lane = 0; lane < kBlock; ++lane) to.push_back(ordered[first + lane * blocks + b]);
+      for (std::size_t lane = 0; lane < kBlock; ++lane) {
+        const std::size_t from = first * kBlock + lane * blocks + b;
+        *table++ = from < ordered.size() ? ordered[from] : -1;
+      }
   }
 }
 
@@ -76,12 +84,11 @@ void Stepper::order_beads() {
   Vec3 corner = at.front();
   for (const auto& x : at) corner = corner.cwiseMin(x);
   const double cell = 2.0 * simulation_.beads.radius.front();
-  std::vector<std::uint64_t> place;
-  for (const auto& x : at) place.push_back(place_on_curve(x - corner, cell));
+  std::vector<std::pair<std::uint64_t, std::size_t>> place(at.size());
+  for (std::size_t k = 0; k < at.size(); ++k) place[k] = {place_on_curve(at[k] - corner, cell), k};
+  std::sort(place.begin(), place.end());
   bead_of_.resize(at.size());
-  std::iota(bead_of_.begin(), bead_of_.end(), 0);
-  std::stable_sort(bead_of_.begin(), bead_of_.end(),
-                   [&](std::size_t a, std::size_t b) { return place[a] < place[b]; });
+  for (std::size_t row = 0; row < at.size(); ++row) bead_of_[row] = place[row].second;
   row_of_.resize(at.size());
   for (std::size_t row = 0; row < at.size(); ++row) row_of_[bead_of_[row]] = static_cast<std::int32_t>(row);
 }
@@ -110,41 +117,58 @@ void Stepper::load_beads() {
   }
 }
 
-/// Cuts the rows of beads into chunks and gives each pair to the chunk of its first row.
-void Stepper::cut_chunks() {
-  const auto& pairs = simulation_.pairs;
+/// Whether the glass of pairs may touch before the next listing.
+std::vector<char> Stepper::touchable() const {
   const auto& [at, margin, bottom_at, top_at, platen_margin] = simulation_.listing;
   const auto& radius = simulation_.beads.radius;
-  chunks_.assign((beads_.size + kBeadsPerChunk - 1) / kBeadsPerChunk, {});
-  std::vector<std::array<std::vector<std::int64_t>, 2>> owned(chunks_.size());
+  const auto& pairs = simulation_.pairs;
+  // With one spring the contact's part of the law is in every pair.
+  std::vector<char> found(pairs.size(), 1);
+  if (simulation_.law.one_spring) return found;
+  for_blocks(pairs.size(), kPairsPerTask, [&](std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      const int i = pairs[p].i, j = pairs[p].j;
+      const double listed_gap = (at[i] - at[j]).norm() - radius[i] - radius[j];
+      found[p] = listed_gap - pairs[p].properties.touch <= margin[i] + margin[j];
+    }
+  });
+  return found;
+}
+
+/// Cuts the rows of beads into chunks and gives each pair to the chunk of its first row. A chunk's pairs are
+/// in the order of their first rows, those that cannot touch before those that may.
+void Stepper::cut_chunks() {
+  const auto& pairs = simulation_.pairs;
+  const std::size_t chunks = (beads_.size + kBeadsPerChunk - 1) / kBeadsPerChunk;
+  const std::vector<char> may_touch = touchable();
+  std::vector<std::size_t> place(pairs.size()), first(2 * chunks * kBeadsPerChunk + 1, 0);
   for (std::size_t p = 0; p < pairs.size(); ++p) {
-    const int i = pairs[p].i, j = pairs[p].j;
-    const double listed_gap = (at[i] - at[j]).norm() - radius[i] - radius[j];
-    // With one spring the contact's part of the law is in every pair.
-    const bool touchable =
-        listed_gap - pairs[p].properties.touch <= margin[i] + margin[j] || simulation_.law.one_spring;
-    owned[std::min(row_of_[i], row_of_[j]) / kBeadsPerChunk][touchable].push_back(
-        static_cast<std::int64_t>(p));
+    const auto row = static_cast<std::size_t>(std::min(row_of_[pairs[p].i], row_of_[pairs[p].j]));
+    place[p] = (row / kBeadsPerChunk * 2 + may_touch[p]) * kBeadsPerChunk + row % kBeadsPerChunk;
+    ++first[place[p] + 1];
   }
-  const auto by_row = [&](std::int64_t a, std::int64_t b) {
-    return std::pair(row_of_[pairs[a].i], row_of_[pairs[a].j]) <
-           std::pair(row_of_[pairs[b].i], row_of_[pairs[b].j]);
-  };
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::int64_t> ordered(pairs.size());
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  for (std::size_t p = 0; p < pairs.size(); ++p) ordered[next[place[p]]++] = static_cast<std::int64_t>(p);
+
+  chunks_.assign(chunks, {});
   pair_of_.clear();
-  const auto append = [&](std::vector<std::int64_t>& group) {
-    std::sort(group.begin(), group.end(), by_row);
-    group.resize(filled_up(group.size()), -1);
-    append_apart(group, pair_of_);
+  const auto append = [&](std::size_t group) {
+    const std::size_t from = first[group * kBeadsPerChunk], to = first[(group + 1) * kBeadsPerChunk];
+    const std::size_t size = pair_of_.size();
+    pair_of_.resize(size + filled_up(to - from));
+    put_apart({&ordered[from], to - from}, &pair_of_[size]);
     return pair_of_.size() / kBlock;
   };
   std::size_t contacts = 0;
-  for (std::size_t c = 0; c < chunks_.size(); ++c) {
+  for (std::size_t c = 0; c < chunks; ++c) {
     Chunk& chunk = chunks_[c];
     chunk.first_bead = c * kBeadsPerChunk;
     chunk.last_bead = std::min(beads_.size, chunk.first_bead + kBeadsPerChunk);
     chunk.first_block = pair_of_.size() / kBlock;
-    chunk.touchable = append(owned[c][0]);
-    chunk.last_block = append(owned[c][1]);
+    chunk.touchable = append(2 * c);
+    chunk.last_block = append(2 * c + 1);
     chunk.first_contact = contacts;
     contacts += chunk.last_block - chunk.touchable;
   }
@@ -159,9 +183,17 @@ void Stepper::load_pairs() {
   pairs_.bends.assign(simulation_.law.bending ? pairs_.blocks.size() : 0, BendBlock{});
   const Chunk& last = chunks_.back();
   pairs_.contacts.assign(last.first_contact + last.last_block - last.touchable, ContactBlock{});
-  for (const auto& chunk : chunks_)
-    for (std::size_t p = chunk.first_block * kBlock; p < chunk.last_block * kBlock; ++p)
-      if (pair_of_[p] >= 0) load_pair(chunk, p);
+  for_pairs([&](const Chunk& chunk, std::size_t p) { load_pair(chunk, p); });
+}
+
+/// Calls f(chunk, place) for every pair of the table, chunks side by side.
+template <typename Function>
+void Stepper::for_pairs(const Function& f) {
+  for_blocks(chunks_.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c)
+      for (std::size_t p = chunks_[c].first_block * kBlock; p < chunks_[c].last_block * kBlock; ++p)
+        if (pair_of_[p] >= 0) f(chunks_[c], p);
+  });
 }
 
 /// The contact block of a pair, or none.
@@ -212,18 +244,20 @@ void Stepper::store_pair(const Chunk& chunk, std::size_t p) {
 /// A chunk adds to the sums of its own beads, and to sums of its own making for those of others.
 void Stepper::share_sums() {
   std::uint32_t next = static_cast<std::uint32_t>(beads_.size);
+  std::vector<std::uint32_t> sum_of(beads_.size);  // of a row, where the chunk at hand has met it
+  std::vector<std::size_t> met_by(beads_.size, chunks_.size());
   for (std::size_t c = 0; c < chunks_.size(); ++c) {
-    std::map<std::uint32_t, std::uint32_t> sum_of;
-    std::set<std::size_t> targets = {c};
+    std::vector<std::size_t>& targets = chunks_[c].targets;
     const auto place = [&](std::uint32_t row) {
       const std::size_t owner = row / kBeadsPerChunk;
       if (owner == c) return row;
-      const auto [entry, is_new] = sum_of.try_emplace(row, next);
-      if (is_new) {
-        chunks_[owner].incoming.push_back({next++, row});
-        targets.insert(owner);
+      if (met_by[row] != c) {
+        met_by[row] = c;
+        sum_of[row] = next++;
+        chunks_[owner].incoming.push_back({sum_of[row], row});
+        targets.push_back(owner);
       }
-      return entry->second;
+      return sum_of[row];
     };
     const std::uint32_t nowhere = next++;  // for the pairs that fill up
     for (std::size_t p = chunks_[c].first_block * kBlock; p < chunks_[c].last_block * kBlock; ++p) {
@@ -233,7 +267,9 @@ void Stepper::share_sums() {
       block.sum_i[at] = kBeadRow * (fills_up ? nowhere : place(block.i[at] / kBeadRow));
       block.sum_j[at] = kBeadRow * (fills_up ? nowhere : place(block.j[at] / kBeadRow));
     }
-    chunks_[c].targets.assign(targets.begin(), targets.end());
+    targets.push_back(c);
+    std::sort(targets.begin(), targets.end());
+    targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
     for (const std::size_t target : targets) ++chunks_[target].sources;
   }
   beads_.sums.assign(kBeadRow * static_cast<std::size_t>(next), 0.0);
@@ -266,9 +302,7 @@ void Stepper::store() {
     beads.velocity[k] = bead.velocity;
     beads.spin[k] = bead.spin;
   }
-  for (const auto& chunk : chunks_)
-    for (std::size_t p = chunk.first_block * kBlock; p < chunk.last_block * kBlock; ++p)
-      if (pair_of_[p] >= 0) store_pair(chunk, p);
+  for_pairs([&](const Chunk& chunk, std::size_t p) { store_pair(chunk, p); });
 }
 
 void Stepper::step() {

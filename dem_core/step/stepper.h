@@ -50,6 +50,7 @@ class Stepper {
  private:
   void order_beads();
   void load_beads();
+  std::vector<char> touchable() const;
   void cut_chunks();
   void load_pairs();
   void load_pair(const Chunk& chunk, std::size_t at);
@@ -59,6 +60,8 @@ class Stepper {
   ContactBlock* contact_of(const Chunk& chunk, std::size_t at);
   void advance_chunk(std::size_t c);
   void press_platens(Chunk& chunk);
+  template <typename Function>
+  void for_pairs(const Function& f);
   template <typename Function>
   void for_bonded(const Function& f);
   template <typename Change>
