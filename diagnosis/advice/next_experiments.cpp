@@ -49,14 +49,20 @@ class Prospect {
   std::size_t missing() const { return runs_.size() + failed_; }
 
   void make(const std::string& name, std::vector<LedgerRow>& ledger) {
-    const auto outcomes = (*bank_.make_runs)(name, requests_);
+    std::vector<sweep::RunRequest> requests;
+    for (const auto& [point, condition] : runs_) {
+      const DesignPoint& of = plan_.points[point];
+      requests.push_back(request_of(experiment_, plan_.conditions[condition], of.member, of.seed, of.changes,
+                                    bank_.beads_folder, of.whole ? 1.0 : plan_.size[condition]));
+    }
+    const auto outcomes = (*bank_.make_runs)(name, requests);
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
       const auto& [point, condition] = runs_[k];
       auto& test = tests_[point][condition];
       test = read_outcome(outcomes[k], condition, name + ": ", plan_.points[point].changes, ledger);
       failed_ += !test;
     }
-    runs_.clear(), requests_.clear();
+    runs_.clear();
   }
 
   /// Every run diagnosed with all that the experiment has; nothing where no run shows what was added.
@@ -88,8 +94,6 @@ class Prospect {
         tests[c] = bank_.tests[point][static_cast<std::size_t>(found - all.begin())];
       } else if (!of.scans_only || ends_at_scan(plan_.conditions[c])) {
         runs_.push_back({plan_.points.size() - 1, c});
-        requests_.push_back(request_of(experiment_, plan_.conditions[c], of.member, of.seed, of.changes,
-                                       bank_.beads_folder, of.whole ? 1.0 : plan_.size[c]));
       }
     }
     return tests;
@@ -109,7 +113,6 @@ class Prospect {
   std::vector<SimulatedTests> tests_;
   std::vector<BankPlan::Run> runs_;  // to be made
   std::size_t failed_ = 0;
-  std::vector<sweep::RunRequest> requests_;
 };
 
 /// How likely a magnitude is by what is known of it, at the resolution of a bank.

@@ -168,11 +168,14 @@ std::pair<BankPlan, std::vector<SimulatedTests>> with_readings(const BankPlan& p
         DesignPoint point = plan.points[k];
         if (!point.id.empty() || point.whole == plan.scaled() || point.member > kReadMembers) continue;
         point.id = effect.id, point.theta = theta, point.changes = {{effect.id, theta}};
-        SimulatedTests read = tests[k];
-        for (auto& test : read)
-          if (test) effect.rows(test->rows, test->gauge, theta), read_frames(effect, theta, *test);
+        SimulatedTests all_read;
+        for (const auto& test : tests[k]) {
+          auto read = test ? std::make_shared<SimulatedTest>(*test) : nullptr;
+          if (read) effect.rows(read->rows, read->gauge, theta), read_frames(effect, theta, *read);
+          all_read.push_back(std::move(read));
+        }
         bank.first.points.push_back(point);
-        bank.second.push_back(std::move(read));
+        bank.second.push_back(std::move(all_read));
       }
     }
   }

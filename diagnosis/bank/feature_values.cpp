@@ -138,7 +138,8 @@ std::optional<Columns> simulated_columns(const Experiment& experiment,
     const auto& answers = conditions[c].observations;
     if (std::find(answers.begin(), answers.end(), index) == answers.end()) continue;
     if (!tests[c]) return std::nullopt;
-    return kind.simulate(observation, {changed_condition(experiment, conditions[c], changes), &*tests[c]});
+    return kind.simulate(observation,
+                         {changed_condition(experiment, conditions[c], changes), tests[c].get()});
   }
   return std::nullopt;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -11,8 +12,9 @@
 
 namespace pendular::diagnosis {
 
-/// The tests of one simulation, one per condition; empty where its run failed or was not made.
-using SimulatedTests = std::vector<std::optional<SimulatedTest>>;
+/// The tests of one simulation, one per condition; empty where its run failed or was not made. Banks that are
+/// made of another's runs share them.
+using SimulatedTests = std::vector<std::shared_ptr<const SimulatedTest>>;
 
 /// What an experiment shows: its features, and the observation of each.
 struct ObservedFeatures {

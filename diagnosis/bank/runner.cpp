@@ -6,17 +6,17 @@
 
 namespace pendular::diagnosis {
 
-std::optional<SimulatedTest> read_outcome(const sweep::RunOutcome& outcome, std::size_t condition,
-                                          const std::string& made_for, const Changes& changes,
-                                          std::vector<LedgerRow>& ledger) {
+std::shared_ptr<const SimulatedTest> read_outcome(const sweep::RunOutcome& outcome, std::size_t condition,
+                                                  const std::string& made_for, const Changes& changes,
+                                                  std::vector<LedgerRow>& ledger) {
   ledger.push_back({outcome.hash, made_for + purpose_of(changes), sweep::to_string(outcome.status),
                     outcome.message, condition});
-  if (outcome.status != sweep::RunStatus::done) return std::nullopt;
+  if (outcome.status != sweep::RunStatus::done) return nullptr;
   SimulatedTest test = read_simulated_test(outcome.folder);
   if (outcome.up_to) end_at(*outcome.up_to, test);
   for (const auto& effect : effects::all_effects())
     if (effect.rows && changes.contains(effect.id)) read_frames(effect, changes.at(effect.id), test);
-  return test;
+  return std::make_shared<const SimulatedTest>(std::move(test));
 }
 
 std::string purpose_of(const Changes& changes) {

@@ -17,9 +17,9 @@ using MakeRuns = std::function<std::vector<sweep::RunOutcome>(const std::string&
 
 /// Reads a run that is done and books every run in the ledger, as what it was made `for`; nothing where it
 /// failed.
-std::optional<SimulatedTest> read_outcome(const sweep::RunOutcome& outcome, std::size_t condition,
-                                          const std::string& made_for, const Changes& changes,
-                                          std::vector<LedgerRow>& ledger);
+std::shared_ptr<const SimulatedTest> read_outcome(const sweep::RunOutcome& outcome, std::size_t condition,
+                                                  const std::string& made_for, const Changes& changes,
+                                                  std::vector<LedgerRow>& ledger);
 
 /// "baseline", "missing_bridges 0.1", "bridges.youngs_modulus_pa -2 sd".
 std::string purpose_of(const Changes& changes);

@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "diagnosis/inference/log_sum.h"
+#include "diagnosis/inference/magnitude_grid.h"
 #include "diagnosis/inference/weigher.h"
 #include "diagnosis/thresholds.h"
 
@@ -19,11 +20,12 @@ constexpr double kLeastShare = 0.01, kStep = 1.25;  // of the magnitudes at whic
 
 Weighed none(const ReducedSpace& space, const ReducedGap& gap) {
   const Eigen::Index size = space.size();
-  const Prediction nothing = space.predict(Eigen::VectorXd::Zero(size),
-                                           {Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)});
-  const Fit fit = space.fit(gap, nothing);
-  return {{"none", fit.log_likelihood, 0.0, {}, fit.chi_squared},
-          beside_unknown(space, gap, nothing, fit.chi_squared)};
+  const std::vector<Expected> nothing = {{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size)}};
+  const Predictions said = space.predict(nothing);
+  const Fits fits = space.fit(gap, said);
+  const double chi_squared = fits.chi_squared[0];
+  return {{"none", fits.log_likelihood[0], 0.0, {}, chi_squared},
+          beside_unknown(space, gap, said, 0, chi_squared)};
 }
 
 /// Logarithm of the mean evidence of what is alike before any data.
@@ -93,7 +95,6 @@ Weigher::Weigher(const Gap& gap, const std::vector<Signature>& signatures,
                  const std::vector<Together>& together, const Priors& priors, Pairs which)
     : space_(gap, signatures), priors_(priors) {
   for (const auto& signature : signatures) reduced_.push_back(with_visible(space_.reduced(signature)));
-  for (const auto& one : reduced_) singles_.emplace_back(std::vector{one}, std::nullopt, space_);
   for (std::size_t a = 0; a < reduced_.size(); ++a)
     for (std::size_t b = a + 1; b < reduced_.size(); ++b) {
       auto run = together_of(together, reduced_[a], reduced_[b], space_);
@@ -106,27 +107,40 @@ bool Weigher::absent(const std::string& effect, double theta) const {
                      [&](const Signature& one) { return one.id == effect && std::fabs(theta) < one.least; });
 }
 
-std::vector<Hypothesis> Weigher::of_singles(const ReducedGap& gap, double negligible) const {
-  std::vector<Weighed> known = {none(space_, gap)};
-  double best = known.front().hypothesis.log_evidence;
-  for (const auto& one : singles_) best = std::max(best, one.coarse_evidence(gap));
-  for (const auto& one : singles_) known.push_back(one.weigh(gap, best - negligible));
-  std::vector<Hypothesis> all = {unknown(known, priors_.like_known)};
-  for (auto& one : known) all.push_back(std::move(one.hypothesis));
+// Predictions of an effect take much memory, those of a pair more: one at a time and thread, for all
+// observations.
+std::vector<std::vector<Hypothesis>> Weigher::of_singles(const std::vector<ReducedGap>& gaps,
+                                                         double negligible) const {
+  std::vector<std::optional<MagnitudeGrid>> grids(reduced_.size());
+  std::vector<std::vector<std::vector<MagnitudeGrid::Fitted>>> fitted(reduced_.size());
+  for_blocks(reduced_.size(), 1, [&](std::size_t e, std::size_t) {
+    grids[e].emplace(std::vector{reduced_[e]}, std::nullopt, space_);
+    fitted[e] = grids[e]->fit(gaps);
+  });
+  std::vector<std::vector<Hypothesis>> all(gaps.size());
+  for_blocks(gaps.size(), 1, [&](std::size_t k, std::size_t) {
+    std::vector<Weighed> known = {none(space_, gaps[k])};
+    double best = known.front().hypothesis.log_evidence;
+    for (const auto& of_effect : fitted) best = std::max(best, MagnitudeGrid::evidence_of(of_effect[k]));
+    for (std::size_t e = 0; e < grids.size(); ++e)
+      known.push_back(grids[e]->weigh(gaps[k], std::move(fitted[e][k]), best - negligible));
+    all[k].push_back(unknown(known, priors_.like_known));
+    for (auto& one : known) all[k].push_back(std::move(one.hypothesis));
+  });
   return all;
 }
 
-// Predictions of a pair take much memory and long to make: one pair at a time and thread, for all
-// observations.
 void Weigher::add_pairs(const std::vector<ReducedGap>& gaps, double negligible,
                         std::vector<std::vector<Hypothesis>>& all) const {
   std::vector<std::vector<Hypothesis>> of_pairs(pairs_.size());
   for_blocks(pairs_.size(), 1, [&](std::size_t p, std::size_t) {
     const auto& [a, b, run] = pairs_[p];
-    const MagnitudeGrid grid({reduced_[a], reduced_[b]}, run, space_);
+    MagnitudeGrid grid({reduced_[a], reduced_[b]}, run, space_);
+    auto fitted = grid.fit(gaps);
     const double less = run ? negligible : std::min(negligible, kNegligible);
     for (std::size_t k = 0; k < gaps.size(); ++k)
-      of_pairs[p].push_back(grid.weigh(gaps[k], best_of(all[k]).log_evidence - less).hypothesis);
+      of_pairs[p].push_back(
+          grid.weigh(gaps[k], std::move(fitted[k]), best_of(all[k]).log_evidence - less).hypothesis);
   });
   for (std::size_t k = 0; k < gaps.size(); ++k)
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
@@ -139,10 +153,9 @@ std::vector<std::vector<Hypothesis>> Weigher::operator()(const std::vector<Eigen
                                                          double negligible) const {
   std::vector<ReducedGap> gaps;
   for (const auto& values : observed) gaps.push_back(space_.gap(values));
-  std::vector<std::vector<Hypothesis>> all;
-  for (const auto& gap : gaps) all.push_back(of_singles(gap, negligible));
+  auto all = of_singles(gaps, negligible);
   add_pairs(gaps, negligible, all);
-  const double effects = static_cast<double>(singles_.size());
+  const double effects = static_cast<double>(reduced_.size());
   const double pairs = effects > 1.0 ? priors_.pairs : 0.0;
   for (auto& hypotheses : all)
     make_probabilities(hypotheses, [&](const Hypothesis& h) {

@@ -12,9 +12,8 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr double kScales[] = {0.4, 0.63, 1.0, 1.6,
-                              2.5};  // of the standard deviations of a response's own covariance
-constexpr double kScaleWeights[] = {0.1, 0.24, 0.32, 0.24, 0.1};
+// Of a response's own covariance, in terms of standard deviations.
+constexpr double kScale[] = {0.4, 0.63, 1.0, 1.6, 2.5}, kScaleWeights[] = {0.1, 0.24, 0.32, 0.24, 0.1};
 constexpr int kCellsOfOne = 41, kCellsOfTwo = 11;  // of each effect's range
 constexpr int kRefined = 3, kParts = 4;            // how often cells at the peak are cut, and into how many
 constexpr double kUnknownFactors[] = {1.0, 1.5, 2.5, 4.0, 7.0};  // of the noise's standard deviation
@@ -37,38 +36,49 @@ Eigen::VectorXd variance_of(const Signature& reduced, const Eigen::VectorXd& res
 
 }  // namespace
 
-double beside_unknown(const ReducedSpace& space, const ReducedGap& gap, const Prediction& prediction,
-                      double chi_squared) {
-  std::vector<double> terms;
-  for (double within : kUnknownFactors)
-    for (double outside : kUnknownFactors)
-      if (within > 1.0 || outside > 1.0)
-        terms.push_back(space.widened(gap, prediction, chi_squared, within, outside));
-  return log_sum(terms) - std::log(static_cast<double>(terms.size()));
+// The likelihood is a product of both parts, so the sum over pairs of factors is one of products of sums.
+double beside_unknown(const ReducedSpace& space, const ReducedGap& gap, const Predictions& predictions,
+                      std::size_t lane, double chi_squared) {
+  std::vector<double> within, outside;
+  for (const double factor : kUnknownFactors) {
+    within.push_back(space.log_within(predictions, lane, chi_squared, factor));
+    outside.push_back(space.log_outside(predictions, lane, gap.outside, factor));
+  }
+  const double usual_outside = outside.front();
+  const std::vector<double> wider_within(within.begin() + 1, within.end()),
+      wider_outside(outside.begin() + 1, outside.end());
+  return log_sum({log_sum(within) + log_sum(wider_outside), log_sum(wider_within) + usual_outside}) -
+         std::log(static_cast<double>(within.size() * outside.size() - 1));
 }
 
-struct MagnitudeGrid::Fitted {
-  const Place* place;
-  double log_likelihood = 0.0;
-  std::array<double, std::size(kScales)> chi_squareds = {};
+double MagnitudeGrid::Fitted::log_density() const {
+  double density = log_weight();
+  for (const auto& cell : place().cells) density -= std::log(cell.width);
+  return density;
+}
 
-  double log_weight() const { return place->log_prior + log_likelihood; }
-  double log_density() const {
-    double density = log_weight();
-    for (const auto& cell : place->cells) density -= std::log(cell.width);
-    return density;
+void MagnitudeGrid::fit(const Batch& batch, const ReducedGap& gap, std::vector<Fitted>& to) const {
+  static_assert(std::size(kScale) == kScales && std::size(kScaleWeights) == kScales);
+  std::array<Fits, kScales> fits;
+  for (std::size_t k = 0; k < kScales; ++k) fits[k] = space_.fit(gap, batch.predictions[k]);
+  for (std::size_t lane = 0; lane < batch.places.size(); ++lane) {
+    Fitted fitted{&batch, lane};
+    std::vector<double> terms;
+    for (std::size_t k = 0; k < kScales; ++k) {
+      fitted.chi_squareds[k] = fits[k].chi_squared[lane];
+      terms.push_back(std::log(kScaleWeights[k]) + fits[k].log_likelihood[lane]);
+    }
+    fitted.log_likelihood = log_sum(terms);
+    to.push_back(fitted);
   }
-};
+}
 
-MagnitudeGrid::Fitted MagnitudeGrid::fit(const Place& place, const ReducedGap& gap) const {
-  Fitted fitted{&place};
-  std::vector<double> terms;
-  for (std::size_t k = 0; k < std::size(kScales); ++k) {
-    const Fit one = space_.fit(gap, place.predictions[k]);
-    fitted.chi_squareds[k] = one.chi_squared;
-    terms.push_back(std::log(kScaleWeights[k]) + one.log_likelihood);
+std::vector<std::vector<MagnitudeGrid::Fitted>> MagnitudeGrid::fit(const std::vector<ReducedGap>& gaps) {
+  std::vector<std::vector<Fitted>> fitted(gaps.size());
+  for (auto& batch : batches_) {
+    for (std::size_t k = 0; k < gaps.size(); ++k) fit(batch, gaps[k], fitted[k]);
+    for (auto& prediction : batch.predictions) prediction.factors = LaneFactors(0);
   }
-  fitted.log_likelihood = log_sum(terms);
   return fitted;
 }
 
@@ -78,7 +88,7 @@ MagnitudeGrid::MagnitudeGrid(std::vector<Signature> reduced, std::optional<Toget
   std::vector<Cell> whole;
   for (const auto& one : reduced_)
     whole.push_back({0.5 * (one.lowest + one.highest), one.highest - one.lowest});
-  places_ = places_at(parts_of(whole, reduced_.size() > 1 ? kCellsOfTwo : kCellsOfOne));
+  batches_ = batches_at(parts_of(whole, reduced_.size() > 1 ? kCellsOfTwo : kCellsOfOne));
 }
 
 /// One or two cells, each cut into so many.
@@ -97,50 +107,54 @@ std::vector<std::vector<MagnitudeGrid::Cell>> MagnitudeGrid::parts_of(const std:
   return found;
 }
 
-std::vector<MagnitudeGrid::Place> MagnitudeGrid::places_at(const std::vector<std::vector<Cell>>& all) const {
+std::vector<MagnitudeGrid::Batch> MagnitudeGrid::batches_at(const std::vector<std::vector<Cell>>& all) const {
   std::vector<Place> places;
   for (const auto& cells : all) {
     double log_prior = 0.0;
     for (std::size_t e = 0; e < cells.size(); ++e)
       log_prior += log_prior_of(reduced_[e], cells[e].theta, cells[e].width);
-    if (log_prior != kNever) places.push_back({cells, log_prior, predict(cells)});
+    if (log_prior != kNever) places.push_back({cells, log_prior});
   }
-  return places;
+  std::vector<Batch> batches;
+  for (std::size_t first = 0; first < places.size(); first += kLanes) {
+    Batch batch;
+    std::vector<Expected> all_expected;
+    for (std::size_t k = first; k < std::min(first + kLanes, places.size()); ++k) {
+      all_expected.push_back(expected(places[k].cells));
+      batch.places.push_back(std::move(places[k]));
+    }
+    for (const double scale : kScale) batch.predictions.push_back(space_.predict(all_expected, scale));
+    batches.push_back(std::move(batch));
+  }
+  return batches;
 }
 
-std::vector<Prediction> MagnitudeGrid::predict(const std::vector<Cell>& cells) const {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(space_.size());
-  Eigen::VectorXd product = Eigen::VectorXd::Constant(space_.size(), cells.size() > 1 ? 1.0 : 0.0);
-  Errors errors{Eigen::VectorXd::Zero(space_.size()), Eigen::MatrixXd::Zero(space_.size(), space_.size())};
-  double drawn_outside = 0.0;
+/// What one effect does, or two together, and how it is known.
+Expected MagnitudeGrid::expected(const std::vector<Cell>& cells) const {
+  const Eigen::Index size = space_.size();
+  Expected found{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size)};
+  Eigen::VectorXd product = Eigen::VectorXd::Constant(size, cells.size() > 1 ? 1.0 : 0.0);
   for (std::size_t e = 0; e < cells.size(); ++e) {
     const double theta = cells[e].theta;
     const Eigen::VectorXd response = reduced_[e].at(theta);
-    sum += response;
+    found.response += response;
     product = product.cwiseProduct(response);
-    errors.shares += variance_of(reduced_[e], response);
-    errors.outside += std::pow(reduced_[e].outside, 2) * response.squaredNorm();
+    found.shares += variance_of(reduced_[e], response);
+    found.outside += std::pow(reduced_[e].outside, 2) * response.squaredNorm();
     const Response& here = reduced_[e].response(theta);
     if (here.draws.size() == 0) continue;
     const double grown = here.grown(theta);
-    errors.draws += grown * here.draws;
-    drawn_outside += grown * here.drawn_outside;
-    errors.dof = errors.dof > 0.0 ? std::min(errors.dof, here.drawn_dof) : here.drawn_dof;
+    found.draws.emplace_back(&here.draws, grown);
+    found.drawn_outside += grown * here.drawn_outside;
+    found.dof = found.dof > 0.0 ? std::min(found.dof, here.drawn_dof) : here.drawn_dof;
   }
   if (together_) {
     const double grown = cells[0].theta / together_->theta_a * cells[1].theta / together_->theta_b;
-    sum += grown * together_->beyond;
-    if (together_->error.size() > 0) errors.draws += grown * grown * together_->error;
+    found.response += grown * together_->beyond;
+    if (together_->error.size() > 0) found.draws.emplace_back(&together_->error, grown * grown);
   }
-  errors.shares +=
+  found.shares +=
       std::pow(together_ ? kThresholds.run_together : kThresholds.together, 2) * product.cwiseAbs();
-  std::vector<Prediction> found;
-  for (const double scale : kScales) {
-    Errors scaled = errors;
-    scaled.draws *= scale * scale;
-    scaled.outside += scale * scale * drawn_outside;
-    found.push_back(space_.predict(sum, scaled));
-  }
   return found;
 }
 
@@ -150,34 +164,25 @@ double MagnitudeGrid::evidence_of(const std::vector<Fitted>& fitted) {
   return log_sum(weights);
 }
 
-double MagnitudeGrid::coarse_evidence(const ReducedGap& gap) const {
-  std::vector<Fitted> fitted;
-  for (const auto& place : places_) fitted.push_back(fit(place, gap));
-  return evidence_of(fitted);
-}
-
-Weighed MagnitudeGrid::weigh(const ReducedGap& gap, double least) const {
-  std::vector<Fitted> fitted;
-  std::deque<std::vector<Place>> finer;  // outlives what points into it
-  const auto add = [&](const std::vector<Place>& places) {
-    for (const auto& place : places) fitted.push_back(fit(place, gap));
-  };
-  add(places_);
+Weighed MagnitudeGrid::weigh(const ReducedGap& gap, std::vector<Fitted> fitted, double least) const {
+  std::deque<std::vector<Batch>> finer;  // outlives what points into it
   const int rounds = evidence_of(fitted) >= least ? kRefined : 0;
   for (int round = 0; round < rounds && !fitted.empty(); ++round) {
-    const auto best = std::max_element(fitted.begin(), fitted.end(), [](const Fitted& a, const Fitted& b) {
-                        return a.log_density() < b.log_density();
-                      })->place->cells;
+    const auto best =
+        std::max_element(fitted.begin(), fitted.end(),
+                         [](const Fitted& a, const Fitted& b) { return a.log_density() < b.log_density(); })
+            ->place()
+            .cells;
     std::vector<std::vector<Cell>> cut;
     std::erase_if(fitted, [&](const Fitted& one) {
-      const auto& cells = one.place->cells;
+      const auto& cells = one.place().cells;
       for (std::size_t e = 0; e < best.size(); ++e)
         if (std::fabs(cells[e].theta - best[e].theta) > 0.75 * (cells[e].width + best[e].width)) return false;
       const auto parts = parts_of(cells, kParts);
       cut.insert(cut.end(), parts.begin(), parts.end());
       return true;
     });
-    add(finer.emplace_back(places_at(cut)));
+    for (const auto& batch : finer.emplace_back(batches_at(cut))) fit(batch, gap, fitted);
   }
 
   Weighed found;
@@ -186,10 +191,11 @@ Weighed MagnitudeGrid::weigh(const ReducedGap& gap, double least) const {
   std::vector<double> beside = {kNever};
   for (const auto& one : fitted) {
     if (reduced_.size() == 1)  // pairs have no part in it
-      for (std::size_t k = 0; k < std::size(kScales); ++k)
-        beside.push_back(one.place->log_prior + std::log(kScaleWeights[k]) +
-                         beside_unknown(space_, gap, one.place->predictions[k], one.chi_squareds[k]));
-    hypothesis.chi_squared = std::min(hypothesis.chi_squared, one.chi_squareds[std::size(kScales) / 2]);
+      for (std::size_t k = 0; k < kScales; ++k)
+        beside.push_back(
+            one.place().log_prior + std::log(kScaleWeights[k]) +
+            beside_unknown(space_, gap, one.batch->predictions[k], one.lane, one.chi_squareds[k]));
+    hypothesis.chi_squared = std::min(hypothesis.chi_squared, one.chi_squareds[kScales / 2]);
   }
   hypothesis.log_evidence = evidence_of(fitted), found.beside_unknown = log_sum(beside);
   for (std::size_t e = 0; e < reduced_.size(); ++e) {
@@ -205,7 +211,7 @@ Magnitude MagnitudeGrid::magnitude(std::size_t effect, const std::vector<Fitted>
   std::vector<std::pair<Cell, double>> cells;
   Magnitude found;
   for (const auto& one : fitted) {
-    cells.emplace_back(one.place->cells[effect], std::exp(one.log_weight() - log_evidence));
+    cells.emplace_back(one.place().cells[effect], std::exp(one.log_weight() - log_evidence));
     found.mean += cells.back().second * cells.back().first.theta;
   }
   const auto below = [&](double theta) {

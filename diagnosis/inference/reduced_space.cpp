@@ -71,39 +71,77 @@ double ReducedSpace::outside(const Eigen::VectorXd& v) const {
   return std::max(0.0, whiten(v).squaredNorm() - reduced(v).squaredNorm());
 }
 
-Prediction ReducedSpace::predict(const Eigen::VectorXd& response, const Errors& errors) const {
-  Eigen::MatrixXd covariance = errors.draws;
-  covariance.diagonal() += errors.shares;
-  covariance.diagonal().array() += 1.0;
-  Prediction prediction{response, Eigen::LLT<Eigen::MatrixXd>(covariance), dof_};
-  // Welch and Satterthwaite: noise and draws are known by different numbers of runs.
-  const double share = errors.draws.trace() / covariance.trace();
-  if (dof_ > 0.0 && errors.dof > 0.0)
-    prediction.dof = 1.0 / (share * share / errors.dof + (1.0 - share) * (1.0 - share) / dof_);
-  const double p = static_cast<double>(size()), nu = prediction.dof;
-  prediction.log_volume =
-      prediction.factor.matrixLLT().diagonal().array().log().sum() +
-      (nu <= 0.0 ? 0.5 * p * std::log(2.0 * M_PI)
-                 : 0.5 * p * std::log(M_PI * nu) + std::lgamma(0.5 * nu) - std::lgamma(0.5 * (nu + p)));
-  if (dimensions_ > 0.0)
-    prediction.widening = std::sqrt(1.0 + errors.outside / (outside_scale_ * outside_dof_));
-  return prediction;
+Predictions ReducedSpace::predict(std::span<const Expected> expected, double scale) const {
+  const double p = static_cast<double>(size()), variance = scale * scale;
+  Predictions found{expected.size(),
+                    std::vector<LaneNumbers>(static_cast<std::size_t>(size())),
+                    LaneFactors(size()),
+                    {},
+                    {},
+                    {}};
+  std::vector<std::pair<const Eigen::MatrixXd*, LaneNumbers>> draws;
+  const auto times_of = [&](const Eigen::MatrixXd* covariance) -> LaneNumbers& {
+    for (auto& [known, times] : draws)
+      if (known == covariance) return times;
+    return draws.emplace_back(covariance, LaneNumbers{}).second;
+  };
+  for (std::size_t lane = 0; lane < expected.size(); ++lane) {
+    const Expected& one = expected[lane];
+    for (Eigen::Index k = 0; k < size(); ++k)
+      found.responses[static_cast<std::size_t>(k)][lane] = one.response[k];
+    found.factors.add_diagonal(lane, one.shares);
+    double drawn = 0.0;
+    for (const auto& [covariance, times] : one.draws) {
+      times_of(covariance)[lane] += times * variance;
+      drawn += times * variance * covariance->trace();
+    }
+    found.dof[lane] = dof_;
+    // Welch and Satterthwaite: noise and draws are known by different numbers of runs.
+    const double share = drawn / (drawn + one.shares.sum() + p);
+    if (dof_ > 0.0 && one.dof > 0.0)
+      found.dof[lane] = 1.0 / (share * share / one.dof + (1.0 - share) * (1.0 - share) / dof_);
+    const double outside = one.outside + variance * one.drawn_outside;
+    found.widening[lane] =
+        dimensions_ > 0.0 ? std::sqrt(1.0 + outside / (outside_scale_ * outside_dof_)) : 1.0;
+  }
+  for (const auto& [covariance, times] : draws) found.factors.add(*covariance, times);
+  found.factors.factor();
+  const LaneNumbers half_log = found.factors.half_log_determinants();
+  for (std::size_t lane = 0; lane < expected.size(); ++lane) {
+    const double nu = found.dof[lane];
+    found.log_volume[lane] =
+        half_log[lane] +
+        (nu <= 0.0 ? 0.5 * p * std::log(2.0 * M_PI)
+                   : 0.5 * p * std::log(M_PI * nu) + std::lgamma(0.5 * nu) - std::lgamma(0.5 * (nu + p)));
+  }
+  return found;
 }
 
-Fit ReducedSpace::fit(const ReducedGap& gap, const Prediction& prediction) const {
-  Fit fit;
-  fit.chi_squared = prediction.factor.matrixL().solve(gap.within - prediction.response).squaredNorm();
-  fit.log_likelihood = widened(gap, prediction, fit.chi_squared, 1.0, 1.0);
-  return fit;
+Fits ReducedSpace::fit(const ReducedGap& gap, const Predictions& predictions) const {
+  std::vector<LaneNumbers> missed = predictions.responses;
+  for (std::size_t k = 0; k < missed.size(); ++k)
+    for (double& one : missed[k]) one = gap.within[static_cast<Eigen::Index>(k)] - one;
+  Fits fits{{}, predictions.factors.squared(missed)};
+  for (std::size_t lane = 0; lane < predictions.size; ++lane)
+    fits.log_likelihood[lane] = log_within(predictions, lane, fits.chi_squared[lane], 1.0) +
+                                log_outside(predictions, lane, gap.outside, 1.0);
+  return fits;
 }
 
-double ReducedSpace::widened(const ReducedGap& gap, const Prediction& prediction, double chi_squared,
-                             double within, double outside) const {
-  const double p = static_cast<double>(size()), nu = prediction.dof,
-               squared = chi_squared / (within * within);
-  return -prediction.log_volume - p * std::log(within) -
-         (nu <= 0.0 ? 0.5 * squared : 0.5 * (nu + p) * std::log1p(squared / nu)) +
-         log_outside(gap.outside, outside * prediction.widening);
+double ReducedSpace::log_within(const Predictions& predictions, std::size_t lane, double chi_squared,
+                                double factor) const {
+  const double p = static_cast<double>(size()), nu = predictions.dof[lane],
+               squared = chi_squared / (factor * factor);
+  return -predictions.log_volume[lane] - p * std::log(factor) -
+         (nu <= 0.0 ? 0.5 * squared : 0.5 * (nu + p) * std::log1p(squared / nu));
+}
+
+double ReducedSpace::log_outside(const Predictions& predictions, std::size_t lane, double outside,
+                                 double factor) const {
+  if (dimensions_ <= 0.0) return 0.0;
+  const double wider = factor * predictions.widening[lane], half = 0.5 * outside_dof_,
+               scale = outside_scale_ * wider * wider, x = std::max(1e-9, outside / scale);
+  return (half - 1.0) * std::log(x) - 0.5 * x - log_chi_ - std::log(scale);
 }
 
 void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {
@@ -147,13 +185,6 @@ void ReducedSpace::learn_outside(const std::vector<double>& known) {
   if (!(mean > 0.0 && square > 0.0)) return;
   outside_scale_ = kThresholds.fresh * square / (2.0 * mean);
   outside_dof_ = 2.0 * mean * mean / square;
-}
-
-double ReducedSpace::log_outside(double outside, double factor) const {
-  if (dimensions_ <= 0.0) return 0.0;
-  const double half = 0.5 * outside_dof_, scale = outside_scale_ * factor * factor,
-               x = std::max(1e-9, outside / scale);
-  return (half - 1.0) * std::log(x) - 0.5 * x - log_chi_ - std::log(scale);
 }
 
 }  // namespace pendular::diagnosis

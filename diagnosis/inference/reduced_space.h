@@ -3,9 +3,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/bank/signature.h"
+#include "diagnosis/inference/lanes.h"
 
 namespace pendular::diagnosis {
 
@@ -16,26 +19,30 @@ struct ReducedGap {
   double outside = 0.0;
 };
 
-/// How a reduced response is known, besides the noise.
-struct Errors {
-  Eigen::VectorXd shares;  ///< variances, of what is a share of the response
-  Eigen::MatrixXd draws;   ///< covariance of what runs of it differ by
-  double dof = 0.0;        ///< degrees of freedom of that; 0: it is known
-  double outside = 0.0;    ///< square outside the span
-};
-
-/// What an explanation says of a gap: the response, the factor of its covariance, noise included, degrees of
-/// freedom of that, minus the logarithm of the density at its peak, and by how much errors widen what is
-/// outside the span.
-struct Prediction {
+/// A reduced response, and how it is known besides the noise.
+struct Expected {
   Eigen::VectorXd response;
-  Eigen::LLT<Eigen::MatrixXd> factor;
-  double dof = 0.0, log_volume = 0.0, widening = 1.0;
+  Eigen::VectorXd shares;  ///< variances, of what is a share of the response
+  /// What runs of it differ by: the sum of so many times these covariances, which are kept by reference.
+  std::vector<std::pair<const Eigen::MatrixXd*, double>> draws = {};
+  double dof = 0.0;            ///< degrees of freedom of that; 0: it is known
+  double outside = 0.0;        ///< square outside the span
+  double drawn_outside = 0.0;  ///< square outside the span of what runs differ by
 };
 
-/// How well a prediction fits: logarithm of the density, and Mahalanobis distance squared.
-struct Fit {
-  double log_likelihood = 0.0, chi_squared = 0.0;
+/// What explanations, one in each lane, say of a gap: their responses, the factors of their covariances,
+/// noise included, degrees of freedom of these, minus the logarithm of the density at its peak, and by how
+/// much errors widen what is outside the span. Lanes beyond the explanations say nothing.
+struct Predictions {
+  std::size_t size = 0;
+  std::vector<LaneNumbers> responses;
+  LaneFactors factors;
+  LaneNumbers dof, log_volume, widening;
+};
+
+/// How well each of some predictions fits: logarithm of the density, and Mahalanobis distance squared.
+struct Fits {
+  LaneNumbers log_likelihood, chi_squared;
 };
 
 /// Features in units of their noise, believed inputs included, reduced to the directions that responses of
@@ -54,22 +61,24 @@ class ReducedSpace {
   /// The square of what is outside the span.
   double outside(const Eigen::VectorXd& v) const;
 
-  Prediction predict(const Eigen::VectorXd& response, const Errors& errors) const;
+  /// Of as many explanations as there are lanes, or fewer. What runs differ by counts so many times in terms
+  /// of standard deviations.
+  Predictions predict(std::span<const Expected> expected, double scale = 1.0) const;
 
   /// The density is the multivariate t of Sellentin & Heavens (2016, MNRAS 456, L132).
-  Fit fit(const ReducedGap& gap, const Prediction& prediction) const;
+  Fits fit(const ReducedGap& gap, const Predictions& predictions) const;
 
-  /// The log-likelihood of a χ² where the noise's standard deviation is so many times as large
-  /// within the span, and outside it.
-  double widened(const ReducedGap& gap, const Prediction& prediction, double chi_squared, double within,
-                 double outside) const;
+  /// Parts of the log-likelihood, within the span at a χ² and outside it, where the noise's standard
+  /// deviation is so many times as large.
+  double log_within(const Predictions& predictions, std::size_t lane, double chi_squared,
+                    double factor) const;
+  double log_outside(const Predictions& predictions, std::size_t lane, double outside, double factor) const;
 
  private:
   Eigen::VectorXd whiten(const Eigen::VectorXd& v) const { return factor_.matrixL().solve(v); }
   void reduce(Response& response) const;
   void find_directions(const std::vector<Signature>& signatures);
   void learn_outside(const std::vector<double>& known);
-  double log_outside(double outside, double factor) const;
 
   Eigen::LLT<Eigen::MatrixXd> factor_;  // of the noise's covariance
   Eigen::MatrixXd precision_;           // its inverse

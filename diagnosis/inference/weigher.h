@@ -1,18 +1,16 @@
 #pragma once
 
-#include <deque>
 #include <limits>
 #include <optional>
 #include <vector>
 
 #include "diagnosis/inference/evidence.h"
-#include "diagnosis/inference/magnitude_grid.h"
 #include "diagnosis/inference/reduced_space.h"
 
 namespace pendular::diagnosis {
 
-/// weigh() for many gaps that have the same noise and the same responses: what explanations say is worked out
-/// once. `gap.values` are not read. May be called from several threads.
+/// weigh() for many gaps that have the same noise and the same responses: what explanations say of some is
+/// worked out once. `gap.values` are not read. May be called from several threads.
 class Weigher {
  public:
   Weigher(const Gap& gap, const std::vector<Signature>& signatures,
@@ -33,7 +31,8 @@ class Weigher {
 
  private:
   /// Unknown, none and single effects, before probabilities.
-  std::vector<Hypothesis> of_singles(const ReducedGap& gap, double negligible) const;
+  std::vector<std::vector<Hypothesis>> of_singles(const std::vector<ReducedGap>& gaps,
+                                                  double negligible) const;
 
   struct Pair {
     std::size_t a, b;
@@ -46,7 +45,6 @@ class Weigher {
   ReducedSpace space_;
   Priors priors_;
   std::vector<Signature> reduced_;
-  std::deque<MagnitudeGrid> singles_;
   std::vector<Pair> pairs_;
 };
 

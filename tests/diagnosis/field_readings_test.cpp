@@ -96,7 +96,7 @@ class FieldReadingsTest : public ::testing::Test {
                       random_normal(static_cast<std::uint64_t>(member), 3 * draw + 1),
                       random_normal(static_cast<std::uint64_t>(member), 3 * draw + 2)));
     }
-    tests.push_back({test});
+    tests.push_back({std::make_shared<const SimulatedTest>(std::move(test))});
   }
 };
 
@@ -136,7 +136,7 @@ TEST_F(FieldReadingsTest, SimulatedFieldsHaveNoiseOfTheStatedSize) {
 }
 
 TEST_F(FieldReadingsTest, RunsThatFailedShowNothing) {
-  tests[7] = {std::nullopt};
+  tests[7] = {nullptr};
   const Readings readings = read(bent(0.3));
   ASSERT_EQ(readings.of_runs.size(), 9u);
   EXPECT_TRUE(readings.of_runs[7].array().isNaN().all());
@@ -156,7 +156,7 @@ TEST_F(FieldReadingsTest, BeadsThatTheScanLostAreNoLoss) {
 }
 
 TEST_F(FieldReadingsTest, WithoutABaselineThereAreNone) {
-  for (std::size_t k = 0; k < 6; ++k) tests[k] = {std::nullopt};
+  for (std::size_t k = 0; k < 6; ++k) tests[k] = {nullptr};
   write_text(folder / "scan.csv", test::followed_text(bent(0.3), kStrain));
   experiment = read_experiment(folder / "e.toml");
   plan.conditions = {{experiment.sample, folder / "beads.csv", {0}}};

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace pendular::diagnosis {
+
+/// Problems of the same size that are solved side by side, each in a lane of a register.
+constexpr std::size_t kLanes = 8;
+
+/// A number of each lane.
+struct alignas(64) LaneNumbers : std::array<double, kLanes> {};
+
+/// Cholesky factors of symmetric positive definite matrices, one in each lane. What a lane computes depends
+/// neither on the others nor on the machine's registers.
+class LaneFactors {
+ public:
+  /// Identity matrices.
+  explicit LaneFactors(Eigen::Index size);
+
+  /// Adds to each lane's matrix so many times this one, of which the lower triangle is read. Before factor().
+  void add(const Eigen::MatrixXd& matrix, const LaneNumbers& times);
+  /// Adds to the diagonal of a lane's matrix. Before factor().
+  void add_diagonal(std::size_t lane, const Eigen::VectorXd& diagonal);
+
+  /// Replaces the matrices by their factors.
+  void factor();
+
+  /// Half the logarithm of each determinant.
+  LaneNumbers half_log_determinants() const;
+  /// xᵀ C⁻¹ x, with x of as many components as the matrices have rows.
+  LaneNumbers squared(const std::vector<LaneNumbers>& x) const;
+
+ private:
+  std::size_t size_;
+  std::vector<LaneNumbers> rows_;  // of the lower triangles; of factors the diagonal is inverted
+};
+
+}  // namespace pendular::diagnosis
