@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
+#include <utility>
 
+#include "base/buckets.h"
 #include "base/parallel.h"
 
 namespace pendular {
@@ -29,17 +30,13 @@ class CellGrid {
       highest = highest.cwiseMax(centre);
     }
     set_cells(highest - lowest_, size, centres.size());
-    first_.assign(count_[0] * count_[1] * count_[2] + 1, 0);
     std::vector<std::size_t> cell(centres.size());
-    for (std::size_t k = 0; k < centres.size(); ++k) {
-      cell[k] = index(at(centres[k]));
-      ++first_[cell[k] + 1];
-    }
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    members_.resize(centres.size());
-    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    for (std::size_t k = 0; k < centres.size(); ++k)
-      members_[next[cell[k]]++] = {centres[k], diameters[k], static_cast<int>(k)};
+    for (std::size_t k = 0; k < centres.size(); ++k) cell[k] = index(at(centres[k]));
+    Buckets sorted = sort_by_number(cell, count_[0] * count_[1] * count_[2]);
+    first_ = std::move(sorted.first);
+    members_.reserve(centres.size());
+    for (const std::size_t k : sorted.items)
+      members_.push_back({centres[k], diameters[k], static_cast<int>(k)});
   }
 
   std::span<const Member> members() const { return members_; }
@@ -71,9 +68,11 @@ class CellGrid {
   /// The cell of a place, or the nearest one.
   Cell at(const Vec3& place) const {
     Cell cell;
-    for (int axis = 0; axis < 3; ++axis)
-      cell[axis] = static_cast<std::size_t>(
-          std::clamp((place[axis] - lowest_[axis]) / size_, 0.0, static_cast<double>(count_[axis] - 1)));
+    for (int axis = 0; axis < 3; ++axis) {
+      const double cells = (place[axis] - lowest_[axis]) / size_;
+      cell[axis] =
+          cells > 0.0 ? static_cast<std::size_t>(std::min(cells, static_cast<double>(count_[axis] - 1))) : 0;
+    }
     return cell;
   }
   std::size_t index(const Cell& cell) const { return (cell[2] * count_[1] + cell[1]) * count_[0] + cell[0]; }
@@ -87,9 +86,9 @@ class CellGrid {
 
 constexpr std::size_t kBlock = 256;
 
-/// Pairs of blocks of members, each found from the larger of its two spheres, so that a few large ones do not
-/// widen the search of all.
-std::vector<std::vector<IndexPair>> find_pairs(const CellGrid& grid, double max_gap) {
+/// Pairs, each found from the larger of its two spheres, so that a few large ones do not widen the search of
+/// all.
+std::vector<IndexPair> find_pairs(const CellGrid& grid, double max_gap) {
   const auto members = grid.members();
   std::vector<std::vector<IndexPair>> found((members.size() + kBlock - 1) / kBlock);
   for_blocks(members.size(), kBlock, [&](std::size_t first, std::size_t last) {
@@ -114,24 +113,23 @@ std::vector<std::vector<IndexPair>> find_pairs(const CellGrid& grid, double max_
     }
     pairs.resize(size);
   });
-  return found;
+  std::vector<IndexPair> all;
+  for (const auto& pairs : found) all.insert(all.end(), pairs.begin(), pairs.end());
+  return all;
 }
 
-/// All pairs sorted: by counts of the first point, then among those of one.
-std::vector<IndexPair> sorted(const std::vector<std::vector<IndexPair>>& found, std::size_t points) {
-  std::vector<std::size_t> first(points + 1, 0);
-  for (const auto& pairs : found)
-    for (const auto& pair : pairs) ++first[pair.first + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<IndexPair> all(first.back());
-  std::vector<std::size_t> next(first.begin(), first.end() - 1);
-  for (const auto& pairs : found)
-    for (const auto& pair : pairs) all[next[pair.first]++] = pair;
-  for_blocks(points, kBlock, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      std::sort(all.begin() + static_cast<std::ptrdiff_t>(first[k]),
-                all.begin() + static_cast<std::ptrdiff_t>(first[k + 1]));
-  });
+/// Sorted by the first point, then among those of one.
+std::vector<IndexPair> sorted(const std::vector<IndexPair>& pairs, std::size_t points) {
+  std::vector<std::size_t> first_point;
+  first_point.reserve(pairs.size());
+  for (const auto& pair : pairs) first_point.push_back(static_cast<std::size_t>(pair.first));
+  const auto [first, items] = sort_by_number(first_point, points);
+  std::vector<IndexPair> all;
+  all.reserve(pairs.size());
+  for (const std::size_t k : items) all.push_back(pairs[k]);
+  for (std::size_t k = 0; k < points; ++k)
+    std::sort(all.begin() + static_cast<std::ptrdiff_t>(first[k]),
+              all.begin() + static_cast<std::ptrdiff_t>(first[k + 1]));
   return all;
 }
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <utility>
 
+#include "base/buckets.h"
 #include "dem_core/step/flush_denormals.h"
 #include "dem_core/step/step_kernels.h"
 
@@ -40,10 +40,10 @@ std::uint64_t place_on_curve(const Vec3& from_corner, double cell) {
   return place;
 }
 
-/// Puts full blocks of pairs into the table so that pairs that follow each other in their order, and share a
+/// Appends full blocks of pairs to the table so that pairs that follow each other in their order, and share a
 /// bead, are in blocks that follow each other: additions to one sum wait for each other. Pairs stay near
 /// their place.
-void put_apart(std::span<const std::int64_t> ordered, std::int64_t* table) {
+void append_apart(std::span<const std::size_t> ordered, std::vector<std::int64_t>& table) {
   constexpr std::size_t kSpread = 16;
   const std::size_t all = filled_up(ordered.size()) / kBlock;
   for (std::size_t first = 0; first < all; first += kSpread) {
@@ -51,7 +51,7 @@ void put_apart(std::span<const std::int64_t> ordered, std::int64_t* table) {
     for (std::size_t b = 0; b < blocks; ++b)
       for (std::size_t lane = 0; lane < kBlock; ++lane) {
         const std::size_t from = first * kBlock + lane * blocks + b;
-        *table++ = from < ordered.size() ? ordered[from] : -1;
+        table.push_back(from < ordered.size() ? static_cast<std::int64_t>(ordered[from]) : -1);
       }
   }
 }
@@ -141,24 +141,18 @@ void Stepper::cut_chunks() {
   const auto& pairs = simulation_.pairs;
   const std::size_t chunks = (beads_.size + kBeadsPerChunk - 1) / kBeadsPerChunk;
   const std::vector<char> may_touch = touchable();
-  std::vector<std::size_t> place(pairs.size()), first(2 * chunks * kBeadsPerChunk + 1, 0);
+  std::vector<std::size_t> place(pairs.size());
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const auto row = static_cast<std::size_t>(std::min(row_of_[pairs[p].i], row_of_[pairs[p].j]));
     place[p] = (row / kBeadsPerChunk * 2 + may_touch[p]) * kBeadsPerChunk + row % kBeadsPerChunk;
-    ++first[place[p] + 1];
   }
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<std::int64_t> ordered(pairs.size());
-  std::vector<std::size_t> next(first.begin(), first.end() - 1);
-  for (std::size_t p = 0; p < pairs.size(); ++p) ordered[next[place[p]]++] = static_cast<std::int64_t>(p);
+  const auto [first, ordered] = sort_by_number(place, 2 * chunks * kBeadsPerChunk);
 
   chunks_.assign(chunks, {});
   pair_of_.clear();
-  const auto append = [&](std::size_t group) {
+  const auto append = [&, &first = first, &ordered = ordered](std::size_t group) {
     const std::size_t from = first[group * kBeadsPerChunk], to = first[(group + 1) * kBeadsPerChunk];
-    const std::size_t size = pair_of_.size();
-    pair_of_.resize(size + filled_up(to - from));
-    put_apart({&ordered[from], to - from}, &pair_of_[size]);
+    append_apart(std::span(ordered).subspan(from, to - from), pair_of_);
     return pair_of_.size() / kBlock;
   };
   std::size_t contacts = 0;

@@ -51,6 +51,13 @@ TEST_P(Neighbours, AgreeWithBruteForce) {
   EXPECT_FALSE(expected.empty());
 }
 
+// Each pair is found from the larger of its two spheres; equal ones are found once.
+TEST(NeighboursOfMany, AFewLargeSpheresAmongEqualOnes) {
+  Cloud cloud = random_cloud(1200, {10, 10, 10}, 3);
+  for (std::size_t k = 0; k < cloud.diameters.size(); ++k) cloud.diameters[k] = k % 50 == 0 ? 4.0 : 0.8;
+  EXPECT_EQ(pairs_within(cloud.centres, cloud.diameters, 0.05), by_brute_force(cloud, 0.05));
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, Neighbours,
     ::testing::Values(Case{"touching", 1500, {9, 9, 9}, 0.0}, Case{"gap", 1500, {12, 8, 9}, 0.4},
