@@ -84,18 +84,18 @@ class CellGrid {
   std::vector<Member> members_;
 };
 
-constexpr std::size_t kBlock = 256;
+constexpr std::size_t kMembersPerTask = 256;
 
 /// Pairs, each found from the larger of its two spheres, so that a few large ones do not widen the search of
 /// all.
 std::vector<IndexPair> find_pairs(const CellGrid& grid, double max_gap) {
   const auto members = grid.members();
-  std::vector<std::vector<IndexPair>> found((members.size() + kBlock - 1) / kBlock);
-  for_blocks(members.size(), kBlock, [&](std::size_t first, std::size_t last) {
-    auto& pairs = found[first / kBlock];
+  std::vector<std::vector<IndexPair>> found((members.size() + kMembersPerTask - 1) / kMembersPerTask);
+  for_blocks(members.size(), kMembersPerTask, [&](std::size_t first, std::size_t last) {
+    auto& pairs = found[first / kMembersPerTask];
     std::size_t size = 0;
     for (std::size_t m = first; m < last; ++m) {
-      const CellGrid::Member own = members[m];
+      const CellGrid::Member& own = members[m];
       const double reach = own.diameter + max_gap;
       if (!(reach > 0.0)) continue;
       grid.around(own.centre, reach, [&](std::span<const CellGrid::Member> row) {

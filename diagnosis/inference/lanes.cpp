@@ -56,21 +56,28 @@ inline __attribute__((always_inline)) void squared_all(const Vector* rows, std::
 }
 
 // The same arithmetic for three sets of instructions: products and sums are rounded each (no contraction).
-#define PENDULAR_LANES(name, target_attribute)                                                            \
-  target_attribute void factor_##name(Vector* rows, std::size_t size) {                                   \
-    factor_all(rows, size);                                                                               \
-  }                                                                                                       \
-  target_attribute void squared_##name(const Vector* rows, std::size_t size, const Vector* x, Vector* to, \
-                                       Vector& sum) {                                                     \
-    squared_all(rows, size, x, to, sum);                                                                  \
-  }
-
-PENDULAR_LANES(anywhere, )
+void factor_anywhere(Vector* rows, std::size_t size) {
+  factor_all(rows, size);
+}
+void squared_anywhere(const Vector* rows, std::size_t size, const Vector* x, Vector* solved, Vector& sum) {
+  squared_all(rows, size, x, solved, sum);
+}
 #ifdef __x86_64__
-PENDULAR_LANES(avx2, __attribute__((target("avx2"))))
-PENDULAR_LANES(avx512, __attribute__((target("avx512f"))))
+__attribute__((target("avx2"))) void factor_avx2(Vector* rows, std::size_t size) {
+  factor_all(rows, size);
+}
+__attribute__((target("avx2"))) void squared_avx2(const Vector* rows, std::size_t size, const Vector* x,
+                                                  Vector* solved, Vector& sum) {
+  squared_all(rows, size, x, solved, sum);
+}
+__attribute__((target("avx512f"))) void factor_avx512(Vector* rows, std::size_t size) {
+  factor_all(rows, size);
+}
+__attribute__((target("avx512f"))) void squared_avx512(const Vector* rows, std::size_t size, const Vector* x,
+                                                       Vector* solved, Vector& sum) {
+  squared_all(rows, size, x, solved, sum);
+}
 #endif
-#undef PENDULAR_LANES
 
 struct Kernels {
   void (*factor)(Vector*, std::size_t);
