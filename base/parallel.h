@@ -69,22 +69,20 @@ void for_blocks(std::size_t size, std::size_t block, const Body& body) {
       tbb::auto_partitioner());
 }
 
-/// Remembers which thread did which part of a loop.
-using SameThreads = tbb::affinity_partitioner;
-
-/// Calls body(k) for all k < size; a loop that is run again and again gives each k to the thread that had it
-/// last, whose cache still holds its data, as far as the load allows.
+/// Calls body(share) for all share < shares, of which there is about one per thread: each on a thread of its
+/// own as far as one is free, and on the same one when such a loop is run again, as its cache still holds the
+/// data.
 template <typename Body>
-void for_each(std::size_t size, SameThreads& same_threads, const Body& body) {
+void for_shares(std::size_t shares, const Body& body) {
   LoopOrder order;
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, size),
-      [&](const tbb::blocked_range<std::size_t>& range) {
+      std::size_t{0}, shares,
+      [&](std::size_t share) {
         order.part_starts();
-        for (std::size_t k = range.begin(); k != range.end(); ++k) body(k);
+        body(share);
         order.part_ends();
       },
-      same_threads);
+      tbb::static_partitioner());
 }
 
 }  // namespace pendular

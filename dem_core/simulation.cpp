@@ -17,9 +17,11 @@
 namespace pendular::dem_core {
 namespace {
 
-// Margins of a listing: what a bead at its present speed moves in so many steps, between two shares of the
-// mean diameter. The least one leaves room for beads that tremble, the largest keeps lists short.
-constexpr double kStepsBetweenListings = 800.0, kLeastMargin = 0.002, kLargestMargin = 0.3;
+// Margins of a listing: what a bead at its present speed, or at this share of a neighbour's, which may hit
+// it, moves in so many steps, between two shares of the mean diameter. The least one leaves room for beads
+// that tremble, the largest keeps lists short.
+constexpr double kStepsBetweenListings = 800.0, kOfNeighbour = 0.5, kLeastMargin = 0.002,
+                 kLargestMargin = 0.3;
 
 double ball_mass(double density, double diameter) {
   return density * M_PI / 6.0 * diameter * diameter * diameter;
@@ -113,13 +115,25 @@ double margin(double speed, double dt, double diameter, double least) {
                                     kLargestMargin * diameter));
 }
 
+/// Of each bead, with what it may take over from those it is paired with.
+std::vector<double> speeds_to_come(const Simulation& simulation) {
+  std::vector<double> own;
+  for (const auto& velocity : simulation.beads.velocity) own.push_back(velocity.norm());
+  std::vector<double> speed = own;
+  for (const auto& pair : simulation.pairs) {
+    speed[pair.i] = std::max(speed[pair.i], kOfNeighbour * own[pair.j]);
+    speed[pair.j] = std::max(speed[pair.j], kOfNeighbour * own[pair.i]);
+  }
+  return speed;
+}
+
 Listing listing_of(const Simulation& simulation, double least) {
   const auto& beads = simulation.beads;
   const double diameter = beads.mean_diameter();
   Listing listing;
   listing.at = beads.position;
-  for (const auto& velocity : beads.velocity)
-    listing.margin.push_back(margin(velocity.norm(), simulation.dt, diameter, least));
+  for (const double speed : speeds_to_come(simulation))
+    listing.margin.push_back(margin(speed, simulation.dt, diameter, least));
   listing.bottom_at = simulation.bottom.z;
   listing.top_at = simulation.top.z;
   const double speed = std::max(std::fabs(simulation.bottom.velocity), std::fabs(simulation.top.velocity));

@@ -54,7 +54,7 @@ struct BeadTable {
 };
 
 /// Beads that are near in space, and the pairs that they own: a pair is owned by the chunk of the first of
-/// its two rows, so a chunk reads and adds to its own beads and those of some later chunks only: its targets.
+/// its two rows, so a chunk reads and adds to its own beads and those of some later chunks only.
 struct Chunk {
   std::size_t first_bead = 0, last_bead = 0;
   std::size_t first_block = 0;                ///< bonds whose glass cannot touch before the next listing
@@ -70,8 +70,6 @@ struct Chunk {
     std::size_t row;
     bool bottom, top;
   };
-  std::vector<std::size_t> targets;  ///< chunks whose beads this one adds to; itself one of them
-  int sources = 0;                   ///< number of chunks that have this one as a target
   std::vector<NearPlaten> near_platen;
 
   // What the chunk adds to the sums over the specimen in one step.

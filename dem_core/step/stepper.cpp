@@ -32,11 +32,12 @@ std::uint64_t spread_bits(std::uint64_t cell) {
   return (bits | bits << 2) & 0x1249249249249249;
 }
 
-/// Place on a curve that keeps neighbours in space close (Morton's order of cells).
-std::uint64_t place_on_curve(const Vec3& from_corner, double cell) {
+/// Place on a curve that keeps neighbours in space close (Morton's order): the share of the specimen's extent
+/// along each axis, so that half of the curve is half of the specimen, cut through by a plane.
+std::uint64_t place_on_curve(const Vec3& share) {
   std::uint64_t place = 0;
   for (int axis = 0; axis < 3; ++axis)
-    place |= spread_bits(static_cast<std::uint64_t>(from_corner[axis] / cell)) << axis;
+    place |= spread_bits(static_cast<std::uint64_t>(share[axis] * 0x1fffff)) << axis;
   return place;
 }
 
@@ -76,16 +77,30 @@ void Stepper::load() {
   load_pairs();
   share_sums();
   find_beads_near_platens();
-  awaited_ = std::vector<std::atomic<int>>(chunks_.size());
+  share_chunks();
+}
+
+/// Gives each thread chunks that follow each other, with as many pairs as the others have.
+void Stepper::share_chunks() {
+  const std::size_t blocks = pairs_.blocks.size(), threads = std::min(thread_count(), chunks_.size());
+  shares_.clear();
+  for (std::size_t c = 0; shares_.size() < threads;) {
+    const std::size_t first = c, enough = blocks * (shares_.size() + 1) / threads;
+    while (c < chunks_.size() && (chunks_[c].first_block + chunks_[c].last_block) / 2 < enough) ++c;
+    shares_.push_back({first, c});
+  }
+  shares_.back().last = chunks_.size();
+  taken_ = std::vector<Taken>(chunks_.size());
 }
 
 void Stepper::order_beads() {
   const auto& at = simulation_.listing.at;
-  Vec3 corner = at.front();
-  for (const auto& x : at) corner = corner.cwiseMin(x);
-  const double cell = 2.0 * simulation_.beads.radius.front();
+  Vec3 low = at.front(), high = at.front();
+  for (const auto& x : at) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  const Vec3 extent = (high - low).cwiseMax(simulation_.beads.radius.front());
   std::vector<std::pair<std::uint64_t, std::size_t>> place(at.size());
-  for (std::size_t k = 0; k < at.size(); ++k) place[k] = {place_on_curve(at[k] - corner, cell), k};
+  for (std::size_t k = 0; k < at.size(); ++k)
+    place[k] = {place_on_curve((at[k] - low).cwiseQuotient(extent)), k};
   std::sort(place.begin(), place.end());
   bead_of_.resize(at.size());
   for (std::size_t row = 0; row < at.size(); ++row) bead_of_[row] = place[row].second;
@@ -241,7 +256,6 @@ void Stepper::share_sums() {
   std::vector<std::uint32_t> sum_of(beads_.size);  // of a row, where the chunk at hand has met it
   std::vector<std::size_t> met_by(beads_.size, chunks_.size());
   for (std::size_t c = 0; c < chunks_.size(); ++c) {
-    std::vector<std::size_t>& targets = chunks_[c].targets;
     const auto place = [&](std::uint32_t row) {
       const std::size_t owner = row / kBeadsPerChunk;
       if (owner == c) return row;
@@ -249,7 +263,6 @@ void Stepper::share_sums() {
         met_by[row] = c;
         sum_of[row] = next++;
         chunks_[owner].incoming.push_back({sum_of[row], row});
-        targets.push_back(owner);
       }
       return sum_of[row];
     };
@@ -261,10 +274,6 @@ void Stepper::share_sums() {
       block.sum_i[at] = kBeadRow * (fills_up ? nowhere : place(block.i[at] / kBeadRow));
       block.sum_j[at] = kBeadRow * (fills_up ? nowhere : place(block.j[at] / kBeadRow));
     }
-    targets.push_back(c);
-    std::sort(targets.begin(), targets.end());
-    targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
-    for (const std::size_t target : targets) ++chunks_[target].sources;
   }
   beads_.sums.assign(kBeadRow * static_cast<std::size_t>(next), 0.0);
 }
@@ -300,9 +309,8 @@ void Stepper::store() {
 }
 
 void Stepper::step() {
-  for (std::size_t c = 0; c < chunks_.size(); ++c)
-    awaited_[c].store(chunks_[c].sources, std::memory_order_relaxed);
-  for_each(chunks_.size(), same_threads_, [&](std::size_t c) { advance_chunk(c); });
+  for_shares(shares_.size(), [&](std::size_t share) { advance_share(share); });
+  for_shares(shares_.size(), [&](std::size_t share) { move_share(share); });
   add_up();
   break_bonds();
   advance_platens(simulation_);
@@ -352,18 +360,35 @@ void Stepper::set_in_motion(double speed, const std::function<Vec3(const Vec3&)>
   simulation_.work.halted -= kinetic_energy();
 }
 
-/// A chunk's pairs read and add to its own beads and those of its targets, so a chunk's beads may move when
-/// all that have it as a target are done.
-void Stepper::advance_chunk(std::size_t c) {
+/// A share's own chunks from its first on, then from the last on what others have not taken yet.
+void Stepper::advance_share(std::size_t share) {
   const FlushDenormals here;
+  const auto take = [&](std::size_t c) {
+    if (!taken_[c].flag.load(std::memory_order_relaxed) &&
+        !taken_[c].flag.exchange(true, std::memory_order_relaxed))
+      advance_chunk(c);
+  };
+  for (std::size_t c = shares_[share].first; c < shares_[share].last; ++c) take(c);
+  for (std::size_t other = 1; other < shares_.size(); ++other) {
+    const Share& of = shares_[(share + other) % shares_.size()];
+    for (std::size_t c = of.last; c > of.first; --c) take(c - 1);
+  }
+}
+
+void Stepper::move_share(std::size_t share) {
+  const FlushDenormals here;
+  for (std::size_t c = shares_[share].first; c < shares_[share].last; ++c) {
+    move_beads(beads_, chunks_[c], simulation_.dt);
+    taken_[c].flag.store(false, std::memory_order_relaxed);
+  }
+}
+
+void Stepper::advance_chunk(std::size_t c) {
   Chunk& chunk = chunks_[c];
   chunk.damped = chunk.slipped = chunk.bottom = chunk.top = 0.0;
   chunk.breaking.clear();
   advance_pairs(pairs_, beads_, chunk, numbers(simulation_.law, simulation_.dt), parts(simulation_.law));
   press_platens(chunk);
-  for (const std::size_t target : chunk.targets)
-    if (awaited_[target].fetch_sub(1, std::memory_order_acq_rel) == 1)
-      move_beads(beads_, chunks_[target], simulation_.dt);
 }
 
 /// Makes the simulation's pair true, and has it changed there.

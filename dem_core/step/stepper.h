@@ -12,10 +12,11 @@
 namespace pendular::dem_core {
 
 /// Advances a simulation step by step, fast: vector kernels over tables of pairs and beads, which are kept in
-/// the order of their place in space. Chunks of neighbouring beads and their pairs are what threads share. A
-/// chunk advances its pairs and adds their forces to sums of its own; once all chunks that add to a chunk's
-/// beads have done so, the last of them collects these sums in fixed order and moves the beads. One parallel
-/// region per step, and the same sums for any number of threads.
+/// the order of their place in space. Chunks of neighbouring beads and their pairs are what threads share:
+/// each thread has its own, which follow each other and so meet those of others along a plane only. In a step
+/// it first advances their pairs and adds their forces to sums of each chunk's own, then collects the sums
+/// for its beads in fixed order and moves them. So what a core has written it reads again itself, and the
+/// sums are the same for any number of threads.
 ///
 /// The simulation's platens, sums, events and step count are always true; its beads and pairs are after
 /// store(). The tables are made anew from the simulation alone, so building a stepper anew changes no result.
@@ -58,6 +59,9 @@ class Stepper {
   void find_beads_near_platens();
   void store_pair(const Chunk& chunk, std::size_t at);
   ContactBlock* contact_of(const Chunk& chunk, std::size_t at);
+  void share_chunks();
+  void advance_share(std::size_t share);
+  void move_share(std::size_t share);
   void advance_chunk(std::size_t c);
   void press_platens(Chunk& chunk);
   template <typename Function>
@@ -71,6 +75,16 @@ class Stepper {
   BeadMotion motion(std::size_t row) const;
   bool listing_due() const;
 
+  /// Chunks of a thread: those that follow each other.
+  struct Share {
+    std::size_t first, last;
+  };
+  /// Whether a chunk's pairs are taken in this step. In a line of memory of its own, which moves between
+  /// cores only where a thread takes what another has left.
+  struct alignas(64) Taken {
+    std::atomic<bool> flag{false};
+  };
+
   Simulation& simulation_;
   std::vector<std::size_t> bead_of_;   ///< row of the bead table → bead
   std::vector<std::int32_t> row_of_;   ///< bead → row
@@ -78,8 +92,8 @@ class Stepper {
   PairTable pairs_;
   BeadTable beads_;
   std::vector<Chunk> chunks_;
-  std::vector<std::atomic<int>> awaited_;  ///< of each chunk: those that have not yet added to its beads
-  SameThreads same_threads_;
+  std::vector<Share> shares_;  ///< one per thread
+  std::vector<Taken> taken_;   ///< of each chunk
 };
 
 }  // namespace pendular::dem_core
