@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/vec3.h"
 #include "dem_core/step/aligned_vector.h"
 
 namespace pendular::dem_core {
@@ -41,6 +42,14 @@ struct PairTable {
 
 /// Numbers in a row of a bead's motion, spin or sums: a cache line.
 constexpr std::uint32_t kBeadRow = 8;
+
+/// Three numbers of a row.
+inline void put(double* row, const Vec3& v) {
+  for (int axis = 0; axis < 3; ++axis) row[axis] = v[axis];
+}
+inline Vec3 get(const double* row) {
+  return {row[0], row[1], row[2]};
+}
 
 /// Beads as the kernels read them.
 struct BeadTable {

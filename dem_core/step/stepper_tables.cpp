@@ -1,0 +1,269 @@
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "base/buckets.h"
+#include "dem_core/step/stepper.h"
+
+namespace pendular::dem_core {
+namespace {
+
+constexpr std::size_t kBeadsPerChunk = 256, kPairsPerTask = 2048;
+
+std::size_t filled_up(std::size_t size) {
+  return (size + kBlock - 1) / kBlock * kBlock;
+}
+
+/// Every third bit of the result, from bit 0 up, is one of the 21 of `cell`.
+std::uint64_t spread_bits(std::uint64_t cell) {
+  std::uint64_t bits = cell & 0x1fffff;
+  bits = (bits | bits << 32) & 0x001f00000000ffff;
+  bits = (bits | bits << 16) & 0x001f0000ff0000ff;
+  bits = (bits | bits << 8) & 0x100f00f00f00f00f;
+  bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
+  return (bits | bits << 2) & 0x1249249249249249;
+}
+
+/// Place on a curve that keeps neighbours in space close (Morton's order): the share of the specimen's extent
+/// along each axis, so that half of the curve is half of the specimen, cut through by a plane.
+std::uint64_t place_on_curve(const Vec3& share) {
+  std::uint64_t place = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    place |= spread_bits(static_cast<std::uint64_t>(share[axis] * 0x1fffff)) << axis;
+  return place;
+}
+
+/// Appends full blocks of pairs to the table so that pairs that follow each other in their order, and share a
+/// bead, are in blocks that follow each other: additions to one sum wait for each other. Pairs stay near
+/// their place.
+void append_apart(std::span<const std::size_t> ordered, std::vector<std::int64_t>& table) {
+  constexpr std::size_t kSpread = 16;
+  const std::size_t all = filled_up(ordered.size()) / kBlock;
+  for (std::size_t first = 0; first < all; first += kSpread) {
+    const std::size_t blocks = std::min(kSpread, all - first);
+    for (std::size_t b = 0; b < blocks; ++b)
+      for (std::size_t lane = 0; lane < kBlock; ++lane) {
+        const std::size_t from = first * kBlock + lane * blocks + b;
+        table.push_back(from < ordered.size() ? static_cast<std::int64_t>(ordered[from]) : -1);
+      }
+  }
+}
+
+}  // namespace
+
+void Stepper::order_beads() {
+  const auto& at = simulation_.listing.at;
+  Vec3 low = at.front(), high = at.front();
+  for (const auto& x : at) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  const Vec3 extent = (high - low).cwiseMax(simulation_.beads.radius.front());
+  std::vector<std::pair<std::uint64_t, std::size_t>> place(at.size());
+  for (std::size_t k = 0; k < at.size(); ++k)
+    place[k] = {place_on_curve((at[k] - low).cwiseQuotient(extent)), k};
+  std::sort(place.begin(), place.end());
+  bead_of_.resize(at.size());
+  for (std::size_t row = 0; row < at.size(); ++row) bead_of_[row] = place[row].second;
+  row_of_.resize(at.size());
+  for (std::size_t row = 0; row < at.size(); ++row) row_of_[bead_of_[row]] = static_cast<std::int32_t>(row);
+}
+
+void Stepper::load_beads() {
+  const auto& beads = simulation_.beads;
+  const std::size_t size = beads_.size = beads.size();
+  // Two more rows, apart by one metre, are the beads of the pairs that fill up blocks.
+  beads_.motion.assign(kBeadRow * (size + 2), 0.0);
+  beads_.motion[kBeadRow * (size + 1)] = 1.0;
+  beads_.spin.assign(kBeadRow * (size + 2), 0.0);
+  beads_.listed_rows.assign(4 * size, 0.0F);
+  for (std::size_t row = 0; row < size; ++row) {
+    const std::size_t k = bead_of_[row];
+    double* bead = &beads_.motion[kBeadRow * row];
+    double* spin = &beads_.spin[kBeadRow * row];
+    put(bead, beads.position[k]);
+    put(bead + 4, beads.velocity[k]);
+    put(spin, beads.spin[k]);
+    bead[3] = spin[3] = beads.radius[k];
+    bead[7] = simulation_.dt / beads.mass[k];
+    spin[4] = simulation_.dt / beads.inertia[k];
+    float* listed = &beads_.listed_rows[4 * row];
+    for (int axis = 0; axis < 3; ++axis) listed[axis] = static_cast<float>(simulation_.listing.at[k][axis]);
+    listed[3] = static_cast<float>(1.0 / simulation_.listing.margin[k]);
+  }
+}
+
+/// Whether the glass of pairs may touch before the next listing.
+std::vector<char> Stepper::touchable() const {
+  const auto& [at, margin, bottom_at, top_at, platen_margin] = simulation_.listing;
+  const auto& radius = simulation_.beads.radius;
+  const auto& pairs = simulation_.pairs;
+  // With one spring the contact's part of the law is in every pair.
+  std::vector<char> found(pairs.size(), 1);
+  if (simulation_.law.one_spring) return found;
+  for_blocks(pairs.size(), kPairsPerTask, [&](std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      const int i = pairs[p].i, j = pairs[p].j;
+      const double listed_gap = (at[i] - at[j]).norm() - radius[i] - radius[j];
+      found[p] = listed_gap - pairs[p].properties.touch <= margin[i] + margin[j];
+    }
+  });
+  return found;
+}
+
+/// Cuts the rows of beads into chunks and gives each pair to the chunk of its first row. A chunk's pairs are
+/// in the order of their first rows, those that cannot touch before those that may.
+void Stepper::cut_chunks() {
+  const auto& pairs = simulation_.pairs;
+  const std::size_t chunks = (beads_.size + kBeadsPerChunk - 1) / kBeadsPerChunk;
+  const std::vector<char> may_touch = touchable();
+  std::vector<std::size_t> place(pairs.size());
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const auto row = static_cast<std::size_t>(std::min(row_of_[pairs[p].i], row_of_[pairs[p].j]));
+    place[p] = (row / kBeadsPerChunk * 2 + may_touch[p]) * kBeadsPerChunk + row % kBeadsPerChunk;
+  }
+  const auto [first, ordered] = sort_by_number(place, 2 * chunks * kBeadsPerChunk);
+
+  chunks_.assign(chunks, {});
+  pair_of_.clear();
+  const auto append = [&, &first = first, &ordered = ordered](std::size_t group) {
+    const std::size_t from = first[group * kBeadsPerChunk], to = first[(group + 1) * kBeadsPerChunk];
+    append_apart(std::span(ordered).subspan(from, to - from), pair_of_);
+    return pair_of_.size() / kBlock;
+  };
+  std::size_t contacts = 0;
+  for (std::size_t c = 0; c < chunks; ++c) {
+    Chunk& chunk = chunks_[c];
+    chunk.first_bead = c * kBeadsPerChunk;
+    chunk.last_bead = std::min(beads_.size, chunk.first_bead + kBeadsPerChunk);
+    chunk.first_block = pair_of_.size() / kBlock;
+    chunk.touchable = append(2 * c);
+    chunk.last_block = append(2 * c + 1);
+    chunk.first_contact = contacts;
+    contacts += chunk.last_block - chunk.touchable;
+  }
+}
+
+void Stepper::load_pairs() {
+  const auto ghost = static_cast<std::uint32_t>(kBeadRow * beads_.size);
+  PairBlock empty{};
+  std::fill_n(empty.i, kBlock, ghost);
+  std::fill_n(empty.j, kBlock, ghost + kBeadRow);
+  pairs_.blocks.assign(pair_of_.size() / kBlock, empty);
+  pairs_.bends.assign(simulation_.law.bending ? pairs_.blocks.size() : 0, BendBlock{});
+  const Chunk& last = chunks_.back();
+  pairs_.contacts.assign(last.first_contact + last.last_block - last.touchable, ContactBlock{});
+  for_pairs([&](const Chunk& chunk, std::size_t p) { load_pair(chunk, p); });
+}
+
+/// Calls f(chunk, place) for every pair of the table, chunks side by side.
+template <typename Function>
+void Stepper::for_pairs(const Function& f) {
+  for_blocks(chunks_.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c)
+      for (std::size_t p = chunks_[c].first_block * kBlock; p < chunks_[c].last_block * kBlock; ++p)
+        if (pair_of_[p] >= 0) f(chunks_[c], p);
+  });
+}
+
+/// The contact block of a pair, or none.
+ContactBlock* Stepper::contact_of(const Chunk& chunk, std::size_t p) {
+  const std::size_t b = p / kBlock;
+  return b < chunk.touchable ? nullptr : &pairs_.contacts[chunk.first_contact + b - chunk.touchable];
+}
+
+void Stepper::load_pair(const Chunk& chunk, std::size_t p) {
+  const Pair& pair = simulation_.pairs[pair_of_[p]];
+  const PairProperties& own = pair.properties;
+  const PairHistory& history = pair.history;
+  const std::size_t at = p % kBlock;
+  PairBlock& block = pairs_.blocks[p / kBlock];
+  block.i[at] = kBeadRow * row_of_[pair.i], block.j[at] = kBeadRow * row_of_[pair.j];
+  block.rest[at] = own.rest;
+  block.kn[at] = static_cast<float>(own.kn), block.kt[at] = static_cast<float>(own.kt);
+  block.break_limit[at] = static_cast<float>(own.break_limit);
+  block.closing[at] = static_cast<float>(history.closing);
+  block.slip_x[at] = history.bond_slip.x, block.slip_y[at] = history.bond_slip.y;
+  block.slip_z[at] = history.bond_slip.z;
+  if (ContactBlock* contact = contact_of(chunk, p)) {
+    contact->touch[at] = own.touch;
+    contact->slip_x[at] = history.contact_slip.x, contact->slip_y[at] = history.contact_slip.y;
+    contact->slip_z[at] = history.contact_slip.z;
+  }
+  if (simulation_.law.bending) {
+    BendBlock& bend = pairs_.bends[p / kBlock];
+    bend.k_bend[at] = own.k_bend, bend.k_twist[at] = own.k_twist;
+    bend.turn_x[at] = history.turn.x, bend.turn_y[at] = history.turn.y, bend.turn_z[at] = history.turn.z;
+  }
+}
+
+void Stepper::store_pair(const Chunk& chunk, std::size_t p) {
+  PairHistory& history = simulation_.pairs[pair_of_[p]].history;
+  const std::size_t at = p % kBlock;
+  const PairBlock& block = pairs_.blocks[p / kBlock];
+  history.bond_slip = {block.slip_x[at], block.slip_y[at], block.slip_z[at]};
+  history.closing = block.closing[at];
+  if (const ContactBlock* contact = contact_of(chunk, p))
+    history.contact_slip = {contact->slip_x[at], contact->slip_y[at], contact->slip_z[at]};
+  if (simulation_.law.bending) {
+    const BendBlock& bend = pairs_.bends[p / kBlock];
+    history.turn = {bend.turn_x[at], bend.turn_y[at], bend.turn_z[at]};
+  }
+}
+
+/// A chunk adds to the sums of its own beads, and to sums of its own making for those of others.
+void Stepper::share_sums() {
+  std::uint32_t next = static_cast<std::uint32_t>(beads_.size);
+  std::vector<std::uint32_t> sum_of(beads_.size);  // of a row, where the chunk at hand has met it
+  std::vector<std::size_t> met_by(beads_.size, chunks_.size());
+  for (std::size_t c = 0; c < chunks_.size(); ++c) {
+    const auto place = [&](std::uint32_t row) {
+      const std::size_t owner = row / kBeadsPerChunk;
+      if (owner == c) return row;
+      if (met_by[row] != c) {
+        met_by[row] = c;
+        sum_of[row] = next++;
+        chunks_[owner].incoming.push_back({sum_of[row], row});
+      }
+      return sum_of[row];
+    };
+    const std::uint32_t nowhere = next++;  // for the pairs that fill up
+    for (std::size_t p = chunks_[c].first_block * kBlock; p < chunks_[c].last_block * kBlock; ++p) {
+      const bool fills_up = pair_of_[p] < 0;
+      PairBlock& block = pairs_.blocks[p / kBlock];
+      const std::size_t at = p % kBlock;
+      block.sum_i[at] = kBeadRow * (fills_up ? nowhere : place(block.i[at] / kBeadRow));
+      block.sum_j[at] = kBeadRow * (fills_up ? nowhere : place(block.j[at] / kBeadRow));
+    }
+  }
+  beads_.sums.assign(kBeadRow * static_cast<std::size_t>(next), 0.0);
+}
+
+void Stepper::find_beads_near_platens() {
+  const Listing& listing = simulation_.listing;
+  for (auto& chunk : chunks_)
+    for (std::size_t row = chunk.first_bead; row < chunk.last_bead; ++row) {
+      const std::size_t k = bead_of_[row];
+      const double z = beads_.listed_rows[4 * row + 2];
+      const double reach = beads_.motion[kBeadRow * row + 3] + listing.margin[k] + listing.platen_margin;
+      const bool bottom = z - reach + simulation_.bottom.relief[k] <= listing.bottom_at;
+      const bool top = z + reach - simulation_.top.relief[k] >= listing.top_at;
+      if (bottom || top) chunk.near_platen.push_back({row, bottom, top});
+    }
+}
+
+BeadMotion Stepper::motion(std::size_t row) const {
+  const double* bead = &beads_.motion[kBeadRow * row];
+  return {get(bead), get(bead + 4), get(&beads_.spin[kBeadRow * row]), bead[3]};
+}
+
+void Stepper::store() {
+  auto& beads = simulation_.beads;
+  for (std::size_t row = 0; row < beads_.size; ++row) {
+    const std::size_t k = bead_of_[row];
+    const BeadMotion bead = motion(row);
+    beads.position[k] = bead.position;
+    beads.velocity[k] = bead.velocity;
+    beads.spin[k] = bead.spin;
+  }
+  for_pairs([&](const Chunk& chunk, std::size_t p) { store_pair(chunk, p); });
+}
+
+}  // namespace pendular::dem_core
