@@ -37,6 +37,8 @@ target_compile_options(pendular_flags INTERFACE -Wall -Wextra -Wpedantic -Wshado
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread>
                        # Results must not depend on how a compiler contracts a*b+c.
                        -ffp-contract=off
+                       # No one reads errno after a root, which otherwise is not taken of a whole register.
+                       -fno-math-errno
                        # Libraries are position-independent; their own calls are still inlined.
                        -fno-semantic-interposition)
 # Debian's ITK knows GCC alone and refuses other compilers: what its headers would have learnt of them.

@@ -6,13 +6,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/lanes.h"
+
 namespace pendular::diagnosis {
-
-/// Problems of the same size that are solved side by side, each in a lane of a register.
-constexpr std::size_t kLanes = 8;
-
-/// A number of each lane.
-struct alignas(64) LaneNumbers : std::array<double, kLanes> {};
 
 /// Cholesky factors of symmetric positive definite matrices, one in each lane. What a lane computes depends
 /// neither on the others nor on the machine's registers.

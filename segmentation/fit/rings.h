@@ -23,13 +23,20 @@ struct Rings {
   }
 };
 
+/// Of a voxel among those of the volume.
+inline std::size_t place_of(const Volume& volume, long i, long j, long k) {
+  const auto x = static_cast<std::size_t>(i), y = static_cast<std::size_t>(j),
+             z = static_cast<std::size_t>(k);
+  return (z * volume.size[1] + y) * volume.size[0] + x;
+}
+
 /// The grey value of a voxel of the volume without its ring, if there are any; NaN where that is not known.
 template <typename T>
 double grey_at(std::span<const T> pixels, const Volume& volume, const Rings* rings, long i, long j, long k) {
-  const auto x = static_cast<std::size_t>(i), y = static_cast<std::size_t>(j),
-             z = static_cast<std::size_t>(k);
-  const auto grey = static_cast<double>(pixels[(z * volume.size[1] + y) * volume.size[0] + x]);
-  return rings ? grey - rings->at(x, y, z) : grey;
+  const auto grey = static_cast<double>(pixels[place_of(volume, i, j, k)]);
+  return rings ? grey - rings->at(static_cast<std::size_t>(i), static_cast<std::size_t>(j),
+                                  static_cast<std::size_t>(k))
+               : grey;
 }
 
 /// Rings about the middle of the picture, from what the cores of the balls (all but `margin` voxels of their

@@ -141,8 +141,10 @@ std::vector<Summit> summits_between(const Grid<std::uint8_t>& mask, std::size_t 
 
 /// From the highest down.
 std::vector<Summit> all_summits(const Grid<std::uint8_t>& mask, double least) {
-  constexpr std::size_t thickness = 96;
-  std::vector<std::vector<Summit>> found((mask.size[2] + thickness - 1) / thickness);
+  constexpr std::size_t thickest = 96;
+  const std::size_t slabs = (mask.size[2] + thickest - 1) / thickest;
+  const std::size_t thickness = (mask.size[2] + slabs - 1) / std::max<std::size_t>(1, slabs);
+  std::vector<std::vector<Summit>> found(slabs);
   for_blocks(mask.size[2], thickness, [&](std::size_t first, std::size_t last) {
     found[first / thickness] = summits_between(mask, first, last, least);
   });
