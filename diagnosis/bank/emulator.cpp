@@ -1,7 +1,6 @@
 #include "diagnosis/bank/emulator.h"
 
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "base/eigensystem.h"
 #include "base/quantile.h"
 #include "diagnosis/bank/mean_row.h"
 #include "diagnosis/thresholds.h"
@@ -237,9 +237,8 @@ void Responses::add(const std::string& id, bool below, Response response) {
 }
 
 Eigen::MatrixXd positive_part(const Eigen::MatrixXd& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (covariance + covariance.transpose()));
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() *
-         solver.eigenvectors().transpose();
+  const auto [values, vectors] = eigensystem(0.5 * (covariance + covariance.transpose()));
+  return vectors * values.cwiseMax(0.0).asDiagonal() * vectors.transpose();
 }
 
 Responses fit_responses(const std::vector<DesignRun>& runs, Eigen::Index features) {

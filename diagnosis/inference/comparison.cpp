@@ -1,10 +1,9 @@
 #include "diagnosis/inference/comparison.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 
+#include "base/eigensystem.h"
 #include "base/quantile.h"
 #include "base/random.h"
 #include "diagnosis/bank/law_readings.h"
@@ -181,8 +180,8 @@ double usual_magnitude(const effects::Effect& effect) {
 }
 
 Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const auto [values, vectors] = eigensystem(covariance);
+  return vectors * values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 Comparison compare(const Experiment& experiment, const BankPlan& plan, const Design& design) {

@@ -1,11 +1,11 @@
 #include "diagnosis/inference/reduced_space.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/eigensystem.h"
 #include "diagnosis/inference/gap.h"
 #include "diagnosis/thresholds.h"
 
@@ -159,15 +159,12 @@ void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {
     Eigen::MatrixXd all(features, static_cast<Eigen::Index>(columns.size()));
     for (std::size_t k = 0; k < columns.size(); ++k) all.col(static_cast<Eigen::Index>(k)) = columns[k];
     // Singular values that count are a hundredth of the largest and more: their squares are exact enough.
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> squares(all.transpose() * all);
+    const auto [squares, vectors] = eigensystem(all.transpose() * all);
     Eigen::Index kept = 0;
     const Eigen::Index most = std::min({kMostDirections, features, all.cols()});
-    while (kept < most &&
-           squares.eigenvalues()[all.cols() - 1 - kept] > std::pow(kThresholds.least_direction, 2))
-      ++kept;
+    while (kept < most && squares[all.cols() - 1 - kept] > std::pow(kThresholds.least_direction, 2)) ++kept;
     if (kept > 0) {
-      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(
-          all * squares.eigenvectors().rightCols(kept).rowwise().reverse());
+      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(all * vectors.rightCols(kept).rowwise().reverse());
       directions = qr.householderQ() * Eigen::MatrixXd::Identity(features, kept);
     }
   }

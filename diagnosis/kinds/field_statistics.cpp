@@ -1,12 +1,12 @@
 #include "diagnosis/kinds/field_statistics.h"
 
 #include <fmt/format.h>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "base/eigensystem.h"
 #include "base/quantile.h"
 #include "base/random.h"
 #include "diagnosis/thresholds.h"
@@ -100,12 +100,12 @@ void FieldStatistics::learn_modes(const std::vector<BankField>& bank) {
   if (found.empty()) return;
   Eigen::MatrixXd all(reference_.size(), static_cast<Eigen::Index>(found.size()));
   for (std::size_t k = 0; k < found.size(); ++k) all.col(static_cast<Eigen::Index>(k)) = found[k];
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(all, Eigen::ComputeThinU);
+  // Singular values that count are a twentieth of the largest and more: their squares are exact enough.
+  const auto [squares, vectors] = eigensystem(all.transpose() * all);
+  const Eigen::VectorXd singular = squares.cwiseMax(0.0).cwiseSqrt().reverse();
   Eigen::Index kept = 0;
-  while (kept < svd.singularValues().size() &&
-         svd.singularValues()[kept] > kThresholds.independent * svd.singularValues()[0])
-    ++kept;
-  modes_ = svd.matrixU().leftCols(kept);
+  while (kept < singular.size() && singular[kept] > kThresholds.independent * singular[0]) ++kept;
+  modes_ = all * vectors.rowwise().reverse().leftCols(kept) * singular.head(kept).cwiseInverse().asDiagonal();
 }
 
 void FieldStatistics::find_pairs() {

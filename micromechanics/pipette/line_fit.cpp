@@ -1,6 +1,5 @@
 #include "pipette/line_fit.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -43,10 +42,15 @@ std::optional<LineFit> fit_line(std::span<const double> x, std::span<const doubl
   // Both are of the size of their own units; the line's normal (−b, 1) is the vector of least scatter.
   const Eigen::Vector2d unit = errors.diagonal().cwiseSqrt();
   const Eigen::Matrix2d scale = unit.cwiseInverse().asDiagonal();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> solver(scale * scatter * scale,
-                                                                         scale * errors * scale);
-  if (solver.info() != Eigen::Success) return std::nullopt;
-  const Eigen::Vector2d normal = scale * solver.eigenvectors().col(0);
+  const double correlation = errors(0, 1) / (unit.x() * unit.y());
+  const double rest = std::sqrt(1.0 - correlation * correlation);
+  if (!(rest > 0.0)) return std::nullopt;
+  Eigen::Matrix2d white;  // to coordinates whose errors are independent
+  white << 1.0, 0.0, -correlation / rest, 1.0 / rest;
+  const Eigen::Matrix2d whitened = white * scale;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
+  solver.computeDirect(whitened * scatter * whitened.transpose());
+  const Eigen::Vector2d normal = whitened.transpose() * solver.eigenvectors().col(0);
   if (!(std::abs(normal.y()) * unit.y() > 1e-12)) return std::nullopt;
   LineFit fit;
   fit.points = n;

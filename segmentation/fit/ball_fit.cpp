@@ -23,11 +23,13 @@ NormalMatrix covariance_of(const std::vector<GreyAt>& errors, const ShellVoxels&
     const Vec3 p = ball.centre + Vec3(voxel.x, voxel.y, voxel.z);
     for (std::size_t m = 0; m < errors.size(); ++m) at_voxels[m][n] = errors[m](p);
   }
-  Eigen::Matrix<double, 7, Eigen::Dynamic> sums = weighted_slopes(voxels, ball, q, at_voxels);
-  // The blur is not free where grey values are known.
-  sums.row(6).setZero();
-  const Eigen::Matrix<double, 7, Eigen::Dynamic> shifts = inverse * sums;
-  return shifts * shifts.transpose();
+  NormalMatrix covariance = NormalMatrix::Zero();
+  for (BallParameters sums : weighted_slopes(voxels, ball, q, at_voxels)) {
+    sums[6] = 0.0;  // The blur is not free where grey values are known.
+    const BallParameters shift = inverse * sums;
+    covariance += shift * shift.transpose();
+  }
+  return covariance;
 }
 
 bool plausible(const BallParameters& q, double radius, double contrast) {

@@ -164,15 +164,15 @@ VoxelNumbers rests(const ShellVoxels& voxels, const GreyBall& ball, const BallPa
   return numbers;
 }
 
-Eigen::Matrix<double, 7, Eigen::Dynamic> weighted_slopes(const ShellVoxels& voxels, const GreyBall& ball,
-                                                         const BallParameters& q,
-                                                         const std::vector<VoxelNumbers>& weights) {
+std::vector<BallParameters> weighted_slopes(const ShellVoxels& voxels, const GreyBall& ball,
+                                            const BallParameters& q,
+                                            const std::vector<VoxelNumbers>& weights) {
   const Model model{ball, q};
-  std::vector<LaneNumbers> sums(7 * weights.size());
+  std::vector<LaneNumbers> sums((kRow - 1) * weights.size());
   run_widest<AddWeighted>(&model, &voxels, &weights, sums.data());
-  Eigen::Matrix<double, 7, Eigen::Dynamic> result(7, static_cast<Eigen::Index>(weights.size()));
-  for (Eigen::Index n = 0; n < result.size(); ++n)
-    result.data()[n] = total(sums[static_cast<std::size_t>(n)]);
+  std::vector<BallParameters> result(weights.size());
+  for (std::size_t n = 0; n < sums.size(); ++n)
+    result[n / (kRow - 1)][static_cast<Eigen::Index>(n % (kRow - 1))] = total(sums[n]);
   return result;
 }
 

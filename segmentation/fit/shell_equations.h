@@ -27,8 +27,8 @@ Equations equations(const ShellVoxels& voxels, const GreyBall& ball, const BallP
 VoxelNumbers rests(const ShellVoxels& voxels, const GreyBall& ball, const BallParameters& q);
 
 /// For each column of weights the sum over the voxels of weight times slopes with respect to the parameters.
-Eigen::Matrix<double, 7, Eigen::Dynamic> weighted_slopes(const ShellVoxels& voxels, const GreyBall& ball,
-                                                         const BallParameters& q,
-                                                         const std::vector<VoxelNumbers>& weights);
+std::vector<BallParameters> weighted_slopes(const ShellVoxels& voxels, const GreyBall& ball,
+                                            const BallParameters& q,
+                                            const std::vector<VoxelNumbers>& weights);
 
 }  // namespace pendular::segmentation

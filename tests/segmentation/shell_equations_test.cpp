@@ -80,7 +80,7 @@ TEST_P(ShellSums, AreThoseOfSlopesByDifferences) {
   for (int i = 0; i < 7; ++i) {
     for (int j = 0; j < 7; ++j) EXPECT_NEAR(found.matrix(i, j), matrix(i, j), 3e-4 * scale[i] * scale[j]);
     EXPECT_NEAR(found.right[i], right[i], 3e-4 * scale[i] * std::sqrt(squares));
-    EXPECT_NEAR(weighted_slopes(voxels, ball, q, {weights})(i, 0), weighted[i], 3e-3 * scale[i]);
+    EXPECT_NEAR(weighted_slopes(voxels, ball, q, {weights})[0][i], weighted[i], 3e-3 * scale[i]);
   }
   EXPECT_NEAR(found.squares, squares, 1e-9 * squares);
 }
