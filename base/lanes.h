@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace pendular {
@@ -23,8 +24,14 @@ inline __attribute__((always_inline)) const LanesInMemory& lanes_of(const LaneNu
   return reinterpret_cast<const LanesInMemory&>(numbers);
 }
 
-/// Signs are told by bits: comparisons of vectors are not compiled to instructions of vectors everywhere.
+inline __attribute__((always_inline)) void set_root(const Lanes& square, Lanes& root) {
+  for (std::size_t lane = 0; lane < kLanes; ++lane) root[lane] = std::sqrt(square[lane]);
+}
+
+/// Signs are told by their bits: not every compiler makes instructions on whole registers of comparisons.
 using LaneBits = long long __attribute__((vector_size(sizeof(Lanes))));
+
+/// Replaces negative numbers by zero.
 inline __attribute__((always_inline)) void set_positive_part(Lanes& numbers) {
   constexpr long long all_but_sign = 0x7fffffffffffffff;
   numbers = 0.5 * (numbers + (Lanes)((LaneBits)numbers & all_but_sign));

@@ -24,8 +24,7 @@ struct MarkHidden {
       const auto& block = voxels->blocks()[n / kLanes];
       Lanes x, y, z, r;
       load(block.x, x), load(block.y, y), load(block.z, z);
-      const Lanes square = x * x + y * y + z * z;
-      for (std::size_t lane = 0; lane < kLanes; ++lane) r[lane] = std::sqrt(square[lane]);
+      set_root(x * x + y * y + z * z, r);
       LaneBits signs{};
       for (const Body& body : *bodies) {
         const Lanes dx = x - body.to[0], dy = y - body.to[1], dz = z - body.to[2];

@@ -1,7 +1,5 @@
 #include "segmentation/fit/shell_equations.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "segmentation/fit/ball_profile.h"
@@ -18,10 +16,6 @@ struct Model {
   const BallParameters& q;
   const NormalTable& normal = normal_table();
 };
-
-inline __attribute__((always_inline)) void set_root(const Lanes& square, Lanes& root) {
-  for (std::size_t lane = 0; lane < kLanes; ++lane) root[lane] = std::sqrt(square[lane]);
-}
 
 using LaneIndices = int __attribute__((vector_size(kLanes * sizeof(int))));
 
