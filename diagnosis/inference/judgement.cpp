@@ -107,7 +107,7 @@ Priors priors_of(const Comparison& readings, const Rules& rules) {
   return priors;
 }
 
-/// `directions`: of the reduced space in which χ² is.
+/// After the set, whose members are not excluded. `directions`: of the reduced space in which χ² is.
 void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
                       Eigen::Index directions, const Rules& rules, const BankPlan& plan,
                       Diagnosis& diagnosis) {
@@ -118,7 +118,9 @@ void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hyp
     Explanation e{h.id, h.probability, h.magnitudes, {}, h.chi_squared / static_cast<double>(directions)};
     const auto ids = effects_in(h.id);
     for (const auto& id : ids) e.units.push_back(effects::find_effect(id, "diagnosis").unit);
-    if (ids.size() == 1 && h.probability < rules.excluded &&
+    const auto& set = diagnosis.ambiguity_set;
+    if (ids.size() == 1 && std::find(set.begin(), set.end(), h.id) == set.end() &&
+        h.probability < rules.excluded &&
         marginal(hypotheses, h.id) < kThresholds.with_pairs * rules.excluded) {
       const auto row =
           std::find(diagnosis.effects.begin(), diagnosis.effects.end(), h.id) - diagnosis.effects.begin();
@@ -240,12 +242,12 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   const auto hypotheses = corrected(weigh(readings.gap, readings.signatures, readings.together, priors),
                                     diagnosis.promise.correction);
   const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();
+  const AmbiguitySet set = set_of(hypotheses, diagnosis.promise.correction);
+  diagnosis.ambiguity_set = set.ids, diagnosis.set_probability = set.probability;
   set_explanations(problem, within_range(hypotheses), directions, rules, plan, diagnosis);
   diagnosis.nearest_signature = nearest_signature(hypotheses, directions);
   const Hypothesis& best = hypotheses.front();
   diagnosis.p_value = p_value_of(best.chi_squared, directions, readings.gap.dof);
-  const AmbiguitySet set = set_of(hypotheses, diagnosis.promise.correction);
-  diagnosis.ambiguity_set = set.ids, diagnosis.set_probability = set.probability;
   set_unseen(hypotheses, diagnosis);
   set_groups(problem, experiment, diagnosis);
   std::vector<std::size_t> all(experiment.observations.size());

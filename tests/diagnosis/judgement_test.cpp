@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/random.h"
 #include "diagnosis/repair/shrinkage.h"
 #include "diagnosis/verdict.h"
 #include "signatures.h"
@@ -89,6 +90,20 @@ TEST(Judgement, WhatNoEffectCanDoIsUnknown) {
   const auto diagnosis = judged({0.4, -0.4, 0.5});
   EXPECT_EQ(diagnosis.explanations.front().id, "unknown");
   EXPECT_GT(diagnosis.explanations.front().probability, 0.9);
+}
+
+TEST(Judgement, WhatIsInTheSetIsNotExcluded) {
+  std::size_t members = 0;
+  for (std::uint64_t n = 0; n < 400; ++n) {
+    const auto between = [&](std::uint64_t k) { return 0.6 * (random_uniform(5, 3 * n + k) - 0.5); };
+    const auto diagnosis = judged({between(0), between(1), between(2)});
+    for (const auto& e : diagnosis.explanations)
+      if (std::count(diagnosis.ambiguity_set.begin(), diagnosis.ambiguity_set.end(), e.id)) {
+        EXPECT_FALSE(e.excluded) << e.id << " " << n << " " << e.probability;
+        ++members;
+      }
+  }
+  EXPECT_GT(members, 400U);
 }
 
 TEST(Judgement, EffectsThatLookAlikeAreASet) {
