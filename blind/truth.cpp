@@ -148,7 +148,7 @@ std::vector<Bead> measured_beads(const Packing& reported, std::uint64_t seed, co
   return beads;
 }
 
-Sample true_sample(const CasePlan& plan, const Split& split, Sample believed) {
+Sample true_sample(const CasePlan& plan, const Split& split, const Sample& believed) {
   Sample sample = diagnosis::changed_sample(believed, [&](Sample& changed) {
     for (const auto& [key, offset] : plan.offsets) {
       // The sd is of A's value; another specimen is off by the same share.

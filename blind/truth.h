@@ -21,7 +21,7 @@ Packing reported_beads(const CasePlan& plan, const Split& split, const Sample& b
 std::vector<Bead> measured_beads(const Packing& reported, std::uint64_t seed, const Split& split);
 
 /// The sample that is true of a case where this one is believed: with its offsets, its law and its effects.
-Sample true_sample(const CasePlan& plan, const Split& split, Sample believed);
+Sample true_sample(const CasePlan& plan, const Split& split, const Sample& believed);
 
 /// A specimen under load, in the order of its beads and bridges.
 struct Scan {

@@ -16,6 +16,7 @@
 namespace pendular::diagnosis {
 namespace {
 
+constexpr int kDrawnSteps = 40;  // up to 10⁵ times the scatter
 constexpr int kDegree = 2, kExactDegree = 4;
 constexpr std::size_t kLevelsOfEarly = 4, kRunsOfEarly = 6;  // that tell what comes early from a quadratic
 constexpr double kGrowths[] = {0.5, 1.0, 1.5, 2.0};
@@ -174,7 +175,8 @@ double growth_of(const Group& group, const Eigen::MatrixXd& missed, const Eigen:
   }
   double best = -std::numeric_limits<double>::infinity(), found = 2.0;
   for (const double growth : kGrowths)
-    for (double drawn = 0.01; drawn < 1e5; drawn *= 1.5) {  // over the scatter, at the largest θ
+    for (int step = 0; step < kDrawnSteps; ++step) {
+      const double drawn = 0.01 * std::pow(1.5, step);  // over the scatter, at the largest θ
       double log_likelihood = 0.0;
       for (std::size_t r = 0; r < squares.size(); ++r) {
         const double expected = 1.0 + drawn * std::pow(group.share(r), growth);
