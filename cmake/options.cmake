@@ -39,7 +39,7 @@ target_compile_options(pendular_flags INTERFACE -Wall -Wextra -Wpedantic -Wshado
                        -ffp-contract=off
                        # No one reads errno after a root, which otherwise is not taken of a whole register.
                        -fno-math-errno
-                       # The compiler looks for garbage from 0.5 GB on, not from 0.13 GB: 8 % of its time.
+                       # The compiler looks for garbage from 0.5 GB on, not from 0.13 GB: 3 to 12 % of its time.
                        $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>
                        # Libraries are position-independent; their own calls are still inlined.
                        -fno-semantic-interposition)
