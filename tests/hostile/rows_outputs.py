@@ -85,7 +85,7 @@ def folders():
     yield Row("10 frames is a link, resumed", "$P compress p.vtp --sample s.toml -o out --quiet --resume", 3, "frames", away("out", "frames"))
     yield Row("10 a realisation is a link", "$P compress p.vtp --sample s.toml -o out --realisations 2 --quiet", 3, "realisation_01",
               away("out", "realisation_01"))
-    yield Row("10 the film's folder is a link", "$P render run -o out --quiet", 3, "film", away("out", "film"), changes=("out/*",))
+    yield Row("10 the film's folder is a link", "$P render run --view displacement -o out --quiet", 3, "film", away("out", "film"), changes=("out/*",))
     yield Row("10 pictures is a link", "$P render run --quiet", 3, "pictures", away("run", "pictures"))
     for inner in ("runs", "packings", "logs"):
         yield Row(f"10 a store's {inner} is a link", "$P sweep sweep.toml -o out --quiet", 3, inner,
@@ -105,8 +105,8 @@ def streams():
         yield Row(f"11 convert to a link to {device}", "$P convert p.vtp sink.csv", 3, "sink.csv", link)
     yield Row("11 a pipe as output", "mkfifo f; $P bridge --d-um 70 -o f", 3, "f", changes=("f",))
     drawn = lambda folder: (folder / "out/film.mp4").stat().st_size > 1000 and (folder / "out/report.html").exists()
-    yield Row("11 render without standard streams", "$P render run -o out <&- >&- 2>&-", 0, "", changes=("out", "out/*"), then=drawn)
-    yield Row("11 render with standard error full", "$P render run -o out 2>/dev/full", 0, "", changes=("out", "out/*"), then=drawn)
+    yield Row("11 render without standard streams", "$P render run --view displacement -o out <&- >&- 2>&-", 0, "", changes=("out", "out/*"), then=drawn)
+    yield Row("11 render with standard error full", "$P render run --view displacement -o out 2>/dev/full", 0, "", changes=("out", "out/*"), then=drawn)
     for command in ("segment scan.mha -o new.csv --bridges g.csv", "pack beads.csv --sample s.toml -o new.vtp"):
         yield Row(f"11 {command.split()[0]} without standard streams", f"$P {command} <&- >&- 2>&-", 0, "",
                   changes=("new.*", "g.csv"), then=lambda folder: any(folder.glob("new.*")))
@@ -116,7 +116,7 @@ def names():
     film = lambda name: lambda folder: (folder / name / "film.mp4").stat().st_size > 1000
     for name in ("a%d", "a%04d%s%n", "a:b", "a b", "a'b\"c", "-a", "pipe:", "ä€"):
         quoted = "'" + name.replace("'", "'\\''") + "'"
-        yield Row(f"14 render -o {name}", f"$P render run --quiet --out={quoted}", 0, "", changes=(name.replace("[", "?"), name + "/*"),
+        yield Row(f"14 render -o {name}", f"$P render run --view displacement --quiet --out={quoted}", 0, "", changes=(name.replace("[", "?"), name + "/*"),
                   then=film(name))
         yield Row(f"14 phantom -o {name}.mha", f"$P phantom s.toml --quiet --out={quoted[:-1]}.mha'", 0, "", changes=(name + ".mha",),
                   then=lambda folder, name=name: (folder / (name + ".mha")).stat().st_size > 10_000)
