@@ -10,15 +10,15 @@ namespace pendular::bench {
 
 /// The first pass of a bank, and what of it a store has.
 struct StoredBank {
-  fs::path beads;
+  diagnosis::MemberPackings packings;
   diagnosis::BankPlan plan;
   std::vector<diagnosis::SimulatedTests> tests;
   std::vector<diagnosis::LedgerRow> ledger;
 
-  StoredBank(const diagnosis::Experiment& experiment, const fs::path& store) : beads(store / "measured") {
+  StoredBank(const diagnosis::Experiment& experiment, const fs::path& store) : packings(store / "measured") {
     diagnosis::BankOptions options;
     options.runs = 0;
-    plan = diagnosis::plan_bank(experiment, options, beads);
+    plan = diagnosis::plan_bank(experiment, options, store / "measured");
     tests.resize(plan.points.size(), diagnosis::SimulatedTests(plan.conditions.size()));
     const sweep::Store runs(store);
     for (std::size_t k = 0; k < plan.runs.size(); ++k) {
@@ -28,8 +28,8 @@ struct StoredBank {
       outcome.hash = hash, outcome.folder = runs.run_folder(hash);
       outcome.status =
           fs::exists(outcome.folder / "result.json") ? sweep::RunStatus::done : sweep::RunStatus::waiting;
-      tests[point][condition] =
-          diagnosis::read_outcome(outcome, condition, "", plan.points[point].changes, ledger);
+      diagnosis::book_run(outcome, condition, "", plan.points[point].changes, ledger);
+      tests[point][condition] = diagnosis::read_run(outcome, plan.points[point].changes);
     }
   }
 };

@@ -22,13 +22,13 @@ namespace {
 constexpr int kRounds = 3;  // of runs at the leading explanations
 
 /// The problem as the bank shows it once nothing new leads, or nothing more may be run.
-Problem followed_problem(const Experiment& experiment, const fs::path& beads_folder, const Rules& rules,
+Problem followed_problem(const Experiment& experiment, MemberPackings& packings, const Rules& rules,
                          BankPlan& plan, BankTests& bank) {
   bank.make("bank", plan);
   Problem problem = problem_of(experiment, plan, bank.tests());
   for (int round = 0; round < kRounds; ++round) {
     const std::size_t before = plan.requests.size();
-    add_points(experiment, leading_points(problem, rules.priors, plan), beads_folder, plan);
+    add_points(experiment, leading_points(problem, rules.priors, plan), packings, plan);
     const std::size_t added = plan.requests.size() - before;
     if (added == 0) break;
     plan.further -= static_cast<int>(added);
@@ -102,8 +102,9 @@ Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& 
   diagnosis.experiment = experiment.name;
   warn_of_input(experiment, diagnosis);
   warn_of_contradictions(experiment, plan, diagnosis);
+  MemberPackings packings(beads_folder);
   BankTests bank(make_runs, diagnosis.ledger);
-  const Problem problem = followed_problem(experiment, beads_folder, rules, plan, bank);
+  const Problem problem = followed_problem(experiment, packings, rules, plan, bank);
   add_overlays(experiment, plan, bank.tests(), diagnosis);
   diagnosis.warnings.insert(diagnosis.warnings.end(), problem.warnings.begin(), problem.warnings.end());
   judge(problem, rules, plan, experiment, diagnosis);
@@ -112,16 +113,16 @@ Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& 
         "the bank is too small to be replayed: how far probabilities, sets and intervals hold is not known, "
         "and they are wider by rule");
   if (scope.fresh_runs)
-    measure_shrinkage({experiment, plan, problem, beads_folder, make_runs}, diagnosis);
+    measure_shrinkage({experiment, plan, problem, packings, make_runs}, diagnosis);
   else
     diagnosis.warnings.push_back(
         "how far the gap shrinks was not measured: no fresh runs were made, as asked");
-  diagnosis.places = places_in(experiment, plan, beads_folder, diagnosis.overlays, diagnosis.warnings);
+  diagnosis.places = places_in(experiment, plan, packings, diagnosis.overlays, diagnosis.warnings);
   if (diagnosis.ambiguity_set.size() > 1) {
     const BankInHand in_hand{experiment,
                              plan,
                              bank.tests(),
-                             beads_folder,
+                             packings,
                              scope.plan ? &make_runs : nullptr,
                              rules.priors,
                              rules.confidence,
@@ -135,10 +136,11 @@ Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& 
 Shrinkage closed_by(const Experiment& experiment, const BankPlan& plan, const fs::path& beads_folder,
                     const MakeRuns& make_runs, const Changes& changes) {
   Diagnosis books;
+  MemberPackings packings(beads_folder);
   BankTests bank(make_runs, books.ledger);
   bank.make("bank", plan);
   const Problem problem = problem_of(experiment, plan, bank.tests());
-  return shrinkage_by({experiment, plan, problem, beads_folder, make_runs}, changes, books);
+  return shrinkage_by({experiment, plan, problem, packings, make_runs}, changes, books);
 }
 
 }  // namespace pendular::diagnosis

@@ -93,8 +93,8 @@ class Bench {
  private:
   static constexpr double kConfidence = 0.95;
 
-  BankInHand hand(const State& state) const {
-    return {state.experiment, bank_.plan, bank_.tests, bank_.beads, nullptr, {}, kConfidence, 1};
+  BankInHand hand(const State& state) {
+    return {state.experiment, bank_.plan, bank_.tests, bank_.packings, nullptr, {}, kConfidence, 1};
   }
 
   Experiment curve_;

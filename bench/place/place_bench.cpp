@@ -154,8 +154,9 @@ void run(std::uint64_t seed, const Sample& sample, bool none_only, const fs::pat
   diagnosis::ScannedMotion scan{kStrain, {}, {}, {}, M_SQRT2 * kSigma, {}};
   for (const auto& bead : measured) scan.ids.push_back(bead.id), scan.rest.push_back(bead.centre);
   Packing believed;
+  diagnosis::MemberPackings packings(scratch / "packings");
   for (int member = 1; member <= kMembers; ++member) {
-    const auto source = diagnosis::beads_of_member(condition, member, sample, scratch / "packings");
+    const auto source = packings.of(condition, member, sample);
     const Packing packing = read_packing(source.file);
     if (member == 1) believed = packing;
     scan.simulated.push_back(displacements(packing, sample, scratch / "run"));

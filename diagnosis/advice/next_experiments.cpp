@@ -53,14 +53,15 @@ class Prospect {
     for (const auto& [point, condition] : runs_) {
       const DesignPoint& of = plan_.points[point];
       requests.push_back(request_of(experiment_, plan_.conditions[condition], of.member, of.seed, of.changes,
-                                    bank_.beads_folder, of.whole ? 1.0 : plan_.size[condition]));
+                                    bank_.packings, of.whole ? 1.0 : plan_.size[condition]));
     }
     const auto outcomes = (*bank_.make_runs)(name, requests);
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
       const auto& [point, condition] = runs_[k];
-      auto& test = tests_[point][condition];
-      test = read_outcome(outcomes[k], condition, name + ": ", plan_.points[point].changes, ledger);
-      failed_ += !test;
+      const Changes& changes = plan_.points[point].changes;
+      book_run(outcomes[k], condition, name + ": ", changes, ledger);
+      tests_[point][condition] = read_run(outcomes[k], changes);
+      failed_ += !tests_[point][condition];
     }
     runs_.clear();
   }

@@ -29,7 +29,7 @@ struct BankInHand {
   const Experiment& experiment;
   const BankPlan& plan;
   const std::vector<SimulatedTests>& tests;  ///< of every point of the plan
-  const fs::path& beads_folder;
+  MemberPackings& packings;
   const MakeRuns* make_runs;  ///< nullptr: none is made
   Priors priors;
   double confidence = 0.95;

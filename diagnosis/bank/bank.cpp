@@ -76,8 +76,8 @@ Condition smaller(Condition condition, double size) {
 
 class Planner {
  public:
-  Planner(const Experiment& experiment, const BankOptions& options, const fs::path& folder)
-      : experiment_(experiment), options_(options), folder_(folder) {
+  Planner(const Experiment& experiment, const BankOptions& options, const fs::path& beads_folder)
+      : experiment_(experiment), options_(options), packings_(beads_folder) {
     plan_.conditions = conditions_of(experiment);
     plan_.size = sizes_of(plan_.conditions);
     plan_.further = options.runs;
@@ -132,11 +132,11 @@ class Planner {
       }
   }
 
-  void add(const DesignPoint& point) { add_points(experiment_, {point}, folder_, plan_); }
+  void add(const DesignPoint& point) { add_points(experiment_, {point}, packings_, plan_); }
 
   const Experiment& experiment_;
   const BankOptions& options_;
-  fs::path folder_;
+  MemberPackings packings_;
   BankPlan plan_;
   bool measured_ = true, scaled_ = false;
   int members_ = kGenerated;
@@ -174,12 +174,12 @@ std::uint64_t draw_seed(int member, int draw) {
 }
 
 void add_points(const Experiment& experiment, const std::vector<DesignPoint>& points,
-                const fs::path& beads_folder, BankPlan& plan) {
+                MemberPackings& packings, BankPlan& plan) {
   for (const auto& point : points) {
     for (std::size_t c = 0; c < plan.conditions.size(); ++c) {
       if (point.scans_only && !ends_at_scan(plan.conditions[c])) continue;
       plan.requests.push_back(request_of(experiment, plan.conditions[c], point.member, point.seed,
-                                         point.changes, beads_folder, point.whole ? 1.0 : plan.size[c]));
+                                         point.changes, packings, point.whole ? 1.0 : plan.size[c]));
       plan.runs.push_back({plan.points.size(), c});
     }
     plan.points.push_back(point);
@@ -201,12 +201,12 @@ std::vector<double> sizes_of(const std::vector<Condition>& conditions) {
 }
 
 sweep::RunRequest request_of(const Experiment& experiment, const Condition& condition, int member,
-                             std::uint64_t seed, const Changes& changes, const fs::path& beads_folder,
+                             std::uint64_t seed, const Changes& changes, MemberPackings& packings,
                              double size) {
   const Condition sized = smaller(condition, size);
   sweep::RunRequest request;
   request.sample = changed_condition(experiment, sized, changes, size);
-  request.packing = beads_of_member(sized, member, request.sample, beads_folder);
+  request.packing = packings.of(sized, member, request.sample);
   request.seed = seed;
   return request;
 }

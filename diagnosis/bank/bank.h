@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnosis/experiment/conditions.h"
+#include "diagnosis/experiment/specimens.h"
 #include "sweep/request.h"
 
 namespace pendular::diagnosis {
@@ -77,7 +78,7 @@ std::uint64_t draw_seed(int member, int draw);
 
 /// Adds the runs of further points.
 void add_points(const Experiment& experiment, const std::vector<DesignPoint>& points,
-                const fs::path& beads_folder, BankPlan& plan);
+                MemberPackings& packings, BankPlan& plan);
 
 /// Of each condition: of the bank's specimens over the observed one.
 std::vector<double> sizes_of(const std::vector<Condition>& conditions);
@@ -85,7 +86,7 @@ std::vector<double> sizes_of(const std::vector<Condition>& conditions);
 /// The run of one condition with some changes, its specimen of the observed size times `size`; `seed` of what
 /// effects draw.
 sweep::RunRequest request_of(const Experiment& experiment, const Condition& condition, int member,
-                             std::uint64_t seed, const Changes& changes, const fs::path& beads_folder,
+                             std::uint64_t seed, const Changes& changes, MemberPackings& packings,
                              double size = 1.0);
 
 }  // namespace pendular::diagnosis

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "diagnosis/bank/mean_row.h"
 #include "diagnosis/thresholds.h"
 #include "effects/list.h"
@@ -49,9 +50,10 @@ BankFeatures::BankFeatures(Level level, const Experiment& experiment, const Bank
       points_(plan.points),
       scaled_(plan.scaled()),
       name_(experiment.name) {
-  for (std::size_t k = 0; k < points_.size(); ++k)
-    values_.push_back(
-        simulated_features(experiment, plan.conditions, observed_, tests[k], points_[k].changes));
+  values_.resize(points_.size());
+  for_blocks(points_.size(), 1, [&](std::size_t k, std::size_t) {
+    values_[k] = simulated_features(experiment, plan.conditions, observed_, tests[k], points_[k].changes);
+  });
   if (level == Level::readings)
     for (std::size_t index = 0; index < experiment.observations.size(); ++index)
       if (auto bank = field_bank(experiment, plan, index, tests))

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "base/parallel.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/thresholds.h"
 #include "packing/tables.h"
@@ -71,14 +72,15 @@ std::optional<FieldBank> field_bank(const Experiment& experiment, const BankPlan
                  followed_in(experiment, observation),
                  um * field(observation, observation.columns),
                  {}};
+  bank.of_runs.resize(plan.points.size());
+  for_blocks(plan.points.size(), 1, [&](std::size_t k, std::size_t) {
+    if (const auto columns =
+            simulated_columns(experiment, plan.conditions, index, tests[k], plan.points[k].changes))
+      bank.of_runs[k] = um * field(observation, *columns);
+  });
   bool baseline = false;
-  for (std::size_t k = 0; k < plan.points.size(); ++k) {
-    const auto columns =
-        simulated_columns(experiment, plan.conditions, index, tests[k], plan.points[k].changes);
-    bank.of_runs.emplace_back();
-    if (columns) bank.of_runs.back() = um * field(observation, *columns);
-    baseline = baseline || (columns && plan.points[k].id.empty());
-  }
+  for (std::size_t k = 0; k < plan.points.size(); ++k)
+    baseline = baseline || (bank.of_runs[k] && plan.points[k].id.empty());
   if (!baseline) return std::nullopt;
   return bank;
 }

@@ -6,11 +6,13 @@
 
 namespace pendular::diagnosis {
 
-std::shared_ptr<const SimulatedTest> read_outcome(const sweep::RunOutcome& outcome, std::size_t condition,
-                                                  const std::string& made_for, const Changes& changes,
-                                                  std::vector<LedgerRow>& ledger) {
+void book_run(const sweep::RunOutcome& outcome, std::size_t condition, const std::string& made_for,
+              const Changes& changes, std::vector<LedgerRow>& ledger) {
   ledger.push_back({outcome.hash, made_for + purpose_of(changes), sweep::to_string(outcome.status),
                     outcome.message, condition});
+}
+
+std::shared_ptr<const SimulatedTest> read_run(const sweep::RunOutcome& outcome, const Changes& changes) {
   if (outcome.status != sweep::RunStatus::done) return nullptr;
   SimulatedTest test = read_simulated_test(outcome.folder);
   if (outcome.up_to) end_at(*outcome.up_to, test);

@@ -15,11 +15,12 @@ namespace pendular::diagnosis {
 using MakeRuns = std::function<std::vector<sweep::RunOutcome>(const std::string& name,
                                                               std::span<const sweep::RunRequest> requests)>;
 
-/// Reads a run that is done and books every run in the ledger, as what it was made `for`; nothing where it
-/// failed.
-std::shared_ptr<const SimulatedTest> read_outcome(const sweep::RunOutcome& outcome, std::size_t condition,
-                                                  const std::string& made_for, const Changes& changes,
-                                                  std::vector<LedgerRow>& ledger);
+/// Books a run in the ledger, as what it was made `for`.
+void book_run(const sweep::RunOutcome& outcome, std::size_t condition, const std::string& made_for,
+              const Changes& changes, std::vector<LedgerRow>& ledger);
+
+/// Reads a run that is done; nothing where it failed.
+std::shared_ptr<const SimulatedTest> read_run(const sweep::RunOutcome& outcome, const Changes& changes);
 
 /// "baseline", "missing_bridges 0.1", "bridges.youngs_modulus_pa -2 sd".
 std::string purpose_of(const Changes& changes);

@@ -96,18 +96,21 @@ std::string measured_otherwise(const Sample& changed) {
 
 }  // namespace
 
-sweep::PackingSource beads_of_member(const Condition& condition, int member, const Sample& changed,
-                                     const fs::path& folder) {
+sweep::PackingSource MemberPackings::of(const Condition& condition, int member, const Sample& changed) {
   if (condition.beads.empty()) return sweep::generated_packing(static_cast<std::uint64_t>(member));
   const auto& s = condition.sample;
-  const std::string name = sha256(
-      fmt::format("closed {} {} {} {} {} {}{}{}", sha256_of(condition.beads), member, s.specimen.diameter,
-                  s.specimen.height, s.bridges.cutoff, s.beads.diameter, measured_otherwise(changed),
-                  condition.network.empty() ? "" : fmt::format(" {}", sha256_of(condition.network))));
-  const fs::path path = folder / (name.substr(0, 16) + ".vtp");
-  make_inner_folder(folder);
+  const std::string what = fmt::format("{} {} {} {} {}{}", member, s.specimen.diameter, s.specimen.height,
+                                       s.bridges.cutoff, s.beads.diameter, measured_otherwise(changed));
+  const auto [known, fresh] = known_.try_emplace(
+      fmt::format("{}\n{}\n{}", condition.beads.string(), condition.network.string(), what));
+  if (!fresh) return known->second;
+  const std::string name =
+      sha256(fmt::format("closed {} {}{}", sha256_of(condition.beads), what,
+                         condition.network.empty() ? "" : fmt::format(" {}", sha256_of(condition.network))));
+  const fs::path path = folder_ / (name.substr(0, 16) + ".vtp");
+  make_inner_folder(folder_);
   if (!is_there(path)) write_packing(path, measured_packing(condition, member, changed));
-  return sweep::packing_file(path);
+  return known->second = sweep::packing_file(path);
 }
 
 double beads_in(const Condition& condition) {

@@ -98,12 +98,14 @@ Columns simulate(const Observation& observation, const Simulated& simulated) {
   const Frame& frame = frame_near(*simulated.test, strain > 0.0 ? strain : kRestStrain);
   Columns columns = observation.columns;
   const auto &i = columns.at("bead_i"), &j = columns.at("bead_j");
+  auto& joined = columns.at("joined");
+  const auto among = [](const std::vector<PairOfIds>& bonds, const PairOfIds& pair) {
+    return std::binary_search(bonds.begin(), bonds.end(), pair);
+  };
   for (std::size_t k = 0; k < i.size(); ++k) {
-    const std::pair<std::int64_t, std::int64_t> pair =
-        std::minmax({static_cast<std::int64_t>(i[k]), static_cast<std::int64_t>(j[k])});
-    if (std::isnan(columns["joined"][k])) continue;
-    columns["joined"][k] =
-        frame.standing.contains(pair) || (strain <= 0.0 && frame.broken.contains(pair)) ? 1.0 : 0.0;
+    if (std::isnan(joined[k])) continue;
+    const PairOfIds pair = std::minmax({static_cast<std::int64_t>(i[k]), static_cast<std::int64_t>(j[k])});
+    joined[k] = among(frame.standing, pair) || (strain <= 0.0 && among(frame.broken, pair)) ? 1.0 : 0.0;
   }
   if (!columns.contains("bridge_diameter_um")) return columns;
   // Of necks a test knows only what its sample says: mean and spread.

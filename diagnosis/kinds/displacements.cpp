@@ -38,9 +38,10 @@ constexpr Names kPlaces = {"x_um", "y_um", "z_um"}, kMotions = {"ux_um", "uy_um"
 /// Columns in µm as vectors in m.
 std::vector<Vec3> vectors_in(const Columns& columns, const Names& names) {
   std::vector<Vec3> all(columns.at(names[0]).size());
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t k = 0; k < all.size(); ++k)
-      all[k][static_cast<int>(axis)] = columns.at(names[axis])[k] / kUm;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto& column = columns.at(names[axis]);
+    for (std::size_t k = 0; k < all.size(); ++k) all[k][static_cast<int>(axis)] = column[k] / kUm;
+  }
   return all;
 }
 
@@ -56,9 +57,11 @@ std::vector<Vec3> motions_in(const Columns& columns) {
 Columns rows_at(const Columns& columns, double strain) {
   Columns rows;
   const auto& strains = columns.at("strain");
-  for (const auto& [name, column] : columns)
+  for (const auto& [name, column] : columns) {
+    auto& kept = rows[name];
     for (std::size_t k = 0; k < column.size(); ++k)
-      if (strains[k] == strain) rows[name].push_back(column[k]);
+      if (strains[k] == strain) kept.push_back(column[k]);
+  }
   return rows;
 }
 
@@ -69,9 +72,10 @@ std::set<double> scans_in(const Columns& columns) {
 
 /// The rows with this motion, m, in the place of their own.
 Columns with_motion(Columns rows, const std::vector<Vec3>& motion) {
-  for (std::size_t k = 0; k < motion.size(); ++k)
-    for (int axis = 0; axis < 3; ++axis)
-      rows[kMotions[static_cast<std::size_t>(axis)]][k] = kUm * motion[k][axis];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    auto& column = rows[kMotions[axis]];
+    for (std::size_t k = 0; k < motion.size(); ++k) column[k] = kUm * motion[k][static_cast<int>(axis)];
+  }
   return rows;
 }
 
@@ -230,19 +234,21 @@ Columns simulate(const Observation& observation, const Simulated& simulated) {
     std::map<std::int64_t, std::size_t> index;
     for (std::size_t k = 0; k < frame.ids.size(); ++k) index[frame.ids[k]] = k;
     const auto ids = rows_at(observation.columns, strain).at("bead_id");
-    const auto add = [&](std::size_t k) {
-      columns["strain"].push_back(strain);
-      columns["bead_id"].push_back(static_cast<double>(frame.ids[k]));
-      for (int axis = 0; axis < 3; ++axis) {
-        columns[kPlaces[static_cast<std::size_t>(axis)]].push_back(kUm * frame.rest[k][axis]);
-        columns[kMotions[static_cast<std::size_t>(axis)]].push_back(kUm * scale *
-                                                                    frame.displacement[k][axis]);
-      }
-    };
+    std::vector<std::size_t> seen;
     if (observation.beads.empty())
-      for (std::size_t k = 0; k < frame.ids.size(); ++k) add(k);
+      for (std::size_t k = 0; k < frame.ids.size(); ++k) seen.push_back(k);
     else
-      for (double id : ids) add(index.at(static_cast<std::int64_t>(id)));
+      for (double id : ids) seen.push_back(index.at(static_cast<std::int64_t>(id)));
+    auto &strains = columns["strain"], &found = columns["bead_id"];
+    strains.insert(strains.end(), seen.size(), strain);
+    for (const std::size_t k : seen) found.push_back(static_cast<double>(frame.ids[k]));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      auto &places = columns[kPlaces[axis]], &motions = columns[kMotions[axis]];
+      for (const std::size_t k : seen) {
+        places.push_back(kUm * frame.rest[k][static_cast<int>(axis)]);
+        motions.push_back(kUm * scale * frame.displacement[k][static_cast<int>(axis)]);
+      }
+    }
   }
   return columns;
 }

@@ -21,11 +21,13 @@ Frame frame_of(const fs::path& path) {
   for (std::size_t k = 0; k < read.position.size(); ++k)
     frame.rest.push_back(read.position[k] - read.displacement[k]);
   for (std::size_t k = 0; k < read.pairs.size(); ++k) {
-    const auto pair = std::minmax(read.ids[static_cast<std::size_t>(read.pairs[k][0])],
-                                  read.ids[static_cast<std::size_t>(read.pairs[k][1])]);
-    if (read.lines[k] == RunFrame::Line::bond) frame.standing.insert(pair);
-    if (read.lines[k] == RunFrame::Line::broken) frame.broken.insert(pair);
+    const PairOfIds pair = std::minmax(read.ids[static_cast<std::size_t>(read.pairs[k][0])],
+                                       read.ids[static_cast<std::size_t>(read.pairs[k][1])]);
+    if (read.lines[k] == RunFrame::Line::bond) frame.standing.push_back(pair);
+    if (read.lines[k] == RunFrame::Line::broken) frame.broken.push_back(pair);
   }
+  std::sort(frame.standing.begin(), frame.standing.end());
+  std::sort(frame.broken.begin(), frame.broken.end());
   return frame;
 }
 
@@ -74,9 +76,10 @@ const Frame& frame_near(const SimulatedTest& test, double strain) {
 
 Columns columns_of_rows(const SimulatedTest& test, const std::string& name, double CurveRow::*value) {
   Columns columns;
+  auto &strains = columns["strain"], &values = columns[name];
   for (const auto& row : test.rows) {
-    columns["strain"].push_back(row.strain);
-    columns[name].push_back(row.*value);
+    strains.push_back(row.strain);
+    values.push_back(row.*value);
   }
   return columns;
 }

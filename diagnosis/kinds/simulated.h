@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -12,6 +11,9 @@
 
 namespace pendular::diagnosis {
 
+/// Two beads' ids, the smaller first.
+using PairOfIds = std::pair<std::int64_t, std::int64_t>;
+
 /// A specimen as a simulated scan shows it. SI.
 struct Frame {
   double strain =
@@ -19,7 +21,7 @@ struct Frame {
   double stress = 0.0;  ///< Pa
   std::vector<std::int64_t> ids;
   std::vector<Vec3> rest, displacement;
-  std::set<std::pair<std::int64_t, std::int64_t>> standing, broken;  ///< pairs of ids, the smaller first
+  std::vector<PairOfIds> standing, broken;  ///< bonds, in rising order
 };
 
 /// A simulated test as its instruments report it.

@@ -114,20 +114,21 @@ void add_noise(std::vector<double>& values, const std::vector<double>& sigma, un
 void add_stated_noise(Columns& columns, const std::string& value, const std::string& sigma,
                       unsigned long seed) {
   if (!columns.contains(value) || !columns.contains(sigma)) return;
-  std::vector<double> logs = logarithms_of(columns.at(value)), shares = columns.at(sigma);
-  for (std::size_t k = 0; k < shares.size(); ++k) shares[k] /= columns.at(value)[k];
+  auto& values = columns.at(value);
+  std::vector<double> logs = logarithms_of(values), shares = columns.at(sigma);
+  for (std::size_t k = 0; k < shares.size(); ++k) shares[k] /= values[k];
   add_noise(logs, shares, seed);
   for (std::size_t k = 0; k < logs.size(); ++k)
-    if (std::isfinite(logs[k])) columns[value][k] = std::exp(logs[k]);
+    if (std::isfinite(logs[k])) values[k] = std::exp(logs[k]);
 }
 
 void draw_rows_again(Columns& columns, unsigned long seed) {
   const Columns original = columns;
-  for (auto& [name, column] : columns)
-    for (std::size_t k = 0; k < column.size(); ++k) {
-      const auto row = static_cast<std::size_t>(random_uniform(seed, k) * static_cast<double>(column.size()));
-      column[k] = original.at(name)[row];
-    }
+  for (auto& [name, column] : columns) {
+    const auto& rows = original.at(name);
+    for (std::size_t k = 0; k < column.size(); ++k)
+      column[k] = rows[static_cast<std::size_t>(random_uniform(seed, k) * static_cast<double>(rows.size()))];
+  }
 }
 
 void check_strain(const Observation& observation, const std::string& column) {

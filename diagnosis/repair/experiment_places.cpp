@@ -57,8 +57,8 @@ ScannedMotion scan_of(const Observation& observation, const Overlay& overlay) {
 }
 
 Place place_in(const Experiment& experiment, const Condition& condition, std::size_t index,
-               const fs::path& beads_folder, const Overlay& overlay) {
-  const Packing packing = read_packing(beads_of_member(condition, 1, condition.sample, beads_folder).file);
+               MemberPackings& packings, const Overlay& overlay) {
+  const Packing packing = read_packing(packings.of(condition, 1, condition.sample).file);
   const dem_core::Simulation specimen =
       effects::actual_simulation(effects::actual_specimen(packing, condition.sample, 1));
   std::vector<std::int64_t> ids;
@@ -71,7 +71,7 @@ Place place_in(const Experiment& experiment, const Condition& condition, std::si
 
 }  // namespace
 
-std::vector<Place> places_in(const Experiment& experiment, const BankPlan& plan, const fs::path& beads_folder,
+std::vector<Place> places_in(const Experiment& experiment, const BankPlan& plan, MemberPackings& packings,
                              const std::vector<Overlay>& overlays, std::vector<std::string>& warnings) {
   std::vector<Place> places;
   for (const auto& condition : plan.conditions)
@@ -81,7 +81,7 @@ std::vector<Place> places_in(const Experiment& experiment, const BankPlan& plan,
       try {
         if (overlays[index].simulated.size() < kFewestMembers)
           throw ComputationFailed("expected at least three simulated scans");
-        places.push_back(place_in(experiment, condition, index, beads_folder, overlays[index]));
+        places.push_back(place_in(experiment, condition, index, packings, overlays[index]));
       } catch (const ComputationFailed& failure) {
         warnings.push_back(observation.name +
                            ": where in the specimen it differs is not shown: " + failure.what());

@@ -104,14 +104,16 @@ class Bench {
     for (const int member : kFresh)
       for (const std::size_t c : needed)
         requests.push_back(request_of(inputs_.experiment, inputs_.plan.conditions[c], member,
-                                      static_cast<std::uint64_t>(member), changes, inputs_.beads_folder));
+                                      static_cast<std::uint64_t>(member), changes, inputs_.packings));
     const auto outcomes = inputs_.make_runs(name, requests);
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(inputs_.problem.landmarks.gap.values.size()), count = sum;
     auto outcome = outcomes.begin();
     for (std::size_t m = 0; m < std::size(kFresh); ++m) {
       SimulatedTests tests(inputs_.plan.conditions.size());
-      for (const std::size_t c : needed)
-        tests[c] = read_outcome(*outcome++, c, name + ": ", changes, diagnosis_.ledger);
+      for (const std::size_t c : needed) {
+        book_run(*outcome, c, name + ": ", changes, diagnosis_.ledger);
+        tests[c] = read_run(*outcome++, changes);
+      }
       const Eigen::VectorXd values = simulated_features(inputs_.experiment, inputs_.plan.conditions,
                                                         inputs_.problem.landmarks.observed, tests, changes);
       for (Eigen::Index f = 0; f < values.size(); ++f)

@@ -10,7 +10,7 @@ struct RepairInputs {
   const Experiment& experiment;
   const BankPlan& plan;
   const Problem& problem;
-  fs::path beads_folder;
+  MemberPackings& packings;
   MakeRuns make_runs;
 };
 

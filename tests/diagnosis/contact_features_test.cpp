@@ -32,7 +32,7 @@ struct Measured {
   double gaps_of_contacts(const std::map<std::string, double>& effects) const {
     Sample changed = condition.sample;
     changed.effects = effects;
-    const auto source = beads_of_member(condition, 1, changed, folder / "measured");
+    const auto source = MemberPackings(folder / "measured").of(condition, 1, changed);
     const Packing actual = effects::actual_specimen(read_packing(source.file), changed, 1).packing;
     double square = 0.0, count = 0.0;
     for (const auto& pair : candidate_bridges(pendular::test::touching_beads(), 0.2e-6))

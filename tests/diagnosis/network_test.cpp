@@ -54,7 +54,7 @@ class MeasuredNetwork : public testing::Test {
 
   Packing simulated(int member) const {
     return read_packing(
-        beads_of_member(condition_, member, condition_.sample, folder_.path() / "members").file);
+        MemberPackings(folder_.path() / "members").of(condition_, member, condition_.sample).file);
   }
 
   TemporaryFolder folder_;

@@ -112,7 +112,8 @@ TEST_F(Planning, WithoutRunsOnlyWhatTheBankShowsIsAssessed) {
   BankTests bank(make_runs, ledger);
   bank.make("bank", plan);
   const std::size_t before = ledger.size();
-  const auto steps = next_steps({experiment, plan, bank.tests(), folder / "beads", nullptr, {}, 0.95, 0},
+  MemberPackings packings(folder / "beads");
+  const auto steps = next_steps({experiment, plan, bank.tests(), packings, nullptr, {}, 0.95, 0},
                                 question_before(plan, {"missing_bridges"}), ledger);
   EXPECT_EQ(ledger.size(), before);
   ASSERT_NE(found(steps, "bridges per bead"), nullptr);

@@ -79,9 +79,9 @@ SimulatedTest scan(double strain, const std::function<bool(int)>& stands,
   test.frames.resize(1);
   test.frames[0].strain = strain;
   for (int k = 0; k < kPairs; ++k) {
-    const std::pair<std::int64_t, std::int64_t> pair = {2 * k + 1, 2 * k + 2};
-    if (stands(k)) test.frames[0].standing.insert(pair);
-    if (broken(k)) test.frames[0].broken.insert(pair);
+    const PairOfIds pair = {2 * k + 1, 2 * k + 2};
+    if (stands(k)) test.frames[0].standing.push_back(pair);
+    if (broken(k)) test.frames[0].broken.push_back(pair);
   }
   return test;
 }
