@@ -89,6 +89,13 @@ Signature with_visible(Signature reduced) {
   return reduced;
 }
 
+/// What an effect does at its usual magnitude, of either sign where it has two: the larger one.
+Eigen::VectorXd at_scale(const Signature& signature) {
+  const Eigen::VectorXd above = signature.at(signature.scale), below = signature.at(-signature.scale);
+  if (signature.highest <= 0.0) return below;
+  return signature.lowest < 0.0 && below.norm() > above.norm() ? below : above;
+}
+
 }  // namespace
 
 Weigher::Weigher(const Gap& gap, const std::vector<Signature>& signatures,
@@ -186,8 +193,7 @@ Eigen::MatrixXd isolability(const Gap& gap, const std::vector<Signature>& signat
   std::vector<Signature> reduced;
   for (const auto& signature : signatures) reduced.push_back(space.reduced(signature));
   for (Eigen::Index a = 0; a < size; ++a) {
-    const auto& signature = signatures[static_cast<std::size_t>(a)];
-    const Eigen::VectorXd here = reduced[static_cast<std::size_t>(a)].at(signature.scale);
+    const Eigen::VectorXd here = at_scale(reduced[static_cast<std::size_t>(a)]);
     distance(a, size) = here.squaredNorm();
     for (Eigen::Index b = 0; b < size; ++b) {
       if (a == b) continue;

@@ -294,5 +294,14 @@ TEST(Evidence, AlikeEffectsAreNotIsolable) {
   EXPECT_NEAR(distance(0, 3), 64.0, 1e-9);
 }
 
+TEST(Evidence, AnEffectThatOneSignShowsIsSeen) {
+  auto all = effects(2, 8.0);
+  all[0].powers = {0.1 * all[0].powers[0]};
+  all[0].below = Response{{all[0].powers[0] * 100.0}};
+  all[0].lowest = -3.0;
+  const auto distance = isolability(gap_of(Eigen::VectorXd::Zero(kFeatures)), all);
+  EXPECT_NEAR(distance(0, 2), 80.0 * 80.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace pendular::diagnosis
