@@ -55,7 +55,7 @@ ordered_json sealed_json(const Split& split, const CasePlan& plan, const std::st
                          {"unit", mechanism.unit}};
   }
   json["hidden"] = plan.hidden;
-  json["scanned"] = plan.scanned;
+  json["observed"] = to_string(plan.observed);
   json["law"] = plan.law;
   if (!plan.engine.empty()) json["engine"] = {{"name", plan.engine}, {"program", engine}};
   json["packing"] = plan.packing + 1;
@@ -84,7 +84,7 @@ std::string experiment_toml(const Split& split, const CasePlan& plan) {
       fmt::format("[experiment]\nname = \"{}\"\nsample = \"sample.toml\"\n\n[uncertainty]\n", plan.name);
   for (const auto& [key, sigma] : split.uncertainty) text += fmt::format("\"{}\" = {}\n", key, sigma);
   text += observation_toml("compression", "A", "A_beads.csv");
-  if (plan.short_specimen)
+  if (plan.short_specimen())
     text +=
         observation_toml("compression", "B", "B_beads.csv",
                          fmt::format("\"specimen.height_um\" = {:.10g}, \"bridges.youngs_modulus_pa\" = {}",
@@ -93,7 +93,7 @@ std::string experiment_toml(const Split& split, const CasePlan& plan) {
     const bool of_polymer = kind == "bridge_stiffness" || kind == "bridge_diameters" || kind == "bridge_gaps";
     text += observation_toml(kind, kind, of_polymer ? "" : "A_beads.csv");
   }
-  if (plan.scanned) text += observation_toml("displacements", "displacements", "A_beads.csv");
+  if (plan.scanned()) text += observation_toml("displacements", "displacements", "A_beads.csv");
   if (plan.bridges_at_rest) text += observation_toml("bridges", "bridges_rest", "A_beads.csv");
   if (plan.bridges_under_load)
     text += observation_toml("bridges", "bridges_load", "A_beads.csv") +
@@ -116,7 +116,7 @@ Tested tested(const CaseFolders& folders, const Split& split, const CasePlan& pl
   const auto measured = measured_beads(beads, seed, split);
   write_beads(part / fmt::format("{}_beads.csv", name), measured, case_provenance());
   const bool is_a = number == 0;
-  const double scan_at = is_a && plan.scanned ? packing_of(split, plan).scan_strain : 0.0;
+  const double scan_at = is_a && plan.scanned() ? packing_of(split, plan).scan_strain : 0.0;
   return {beads, measured,
           run_truth(plan, split, believed, beads, number, is_a, scan_at, folders.work(plan.name) / "run")};
 }
@@ -129,7 +129,7 @@ void write_scans(const Split& split, const CasePlan& plan, const Tested& a, cons
     write_bridges(part / (name + ".csv"), a.measured, measured_bridges(specimen, name, standing, noise),
                   case_provenance());
   };
-  if (plan.scanned)
+  if (plan.scanned())
     write_text(part / "displacements.csv",
                csv_text(followed_beads(specimen, packing_of(split, plan).scan_strain, noise)));
   if (plan.bridges_at_rest) write_network("bridges_rest", bridges_at_rest(a.test));
@@ -158,7 +158,7 @@ void make_case(const CaseFolders& folders, const Split& split, const CasePlan& p
   const SharedPacking& packing = packing_of(split, plan);
   const Tested a = tested(folders, split, plan, "A", believed_a(split, packing), 0, part);
   std::optional<Tested> b;
-  if (plan.short_specimen) b = tested(folders, split, plan, "B", believed_b(split, packing), 1, part);
+  if (plan.short_specimen()) b = tested(folders, split, plan, "B", believed_b(split, packing), 1, part);
   ordered_json noise;
   for (const auto& [name, table] : observe(plan, split, a.test, b ? &b->test : nullptr, noise))
     write_text(part / (name + ".csv"), csv_text(table));
@@ -193,7 +193,7 @@ double expected_particle_steps(const Split& split, const CasePlan& plan) {
   constexpr double kUnloading = 1.5;  // what an unloading, and runs to find its strain, add
   const SharedPacking& packing = packing_of(split, plan);
   double steps = work(believed_a(split, packing), kUnloading);
-  if (plan.short_specimen) steps += work(believed_b(split, packing), 1.1);
+  if (plan.short_specimen()) steps += work(believed_b(split, packing), 1.1);
   constexpr double kYadeSlower = 40.0;  // per particle-step
   const bool outside = !plan.engine.empty() && find_engine(plan.engine, plan.name).outside();
   return outside ? kYadeSlower * steps : steps;

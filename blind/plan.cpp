@@ -193,11 +193,12 @@ void draw_observations(CasePlan& plan, Dice& dice) {
   plan.kinds = {"coordination", "lateral_strain"};
   for (const char* kind : {"broken_bonds", "bridge_stiffness", "bridge_diameters", "bridge_gaps"})
     if (dice.chance(0.5)) plan.kinds.push_back(kind);
-  plan.short_specimen = level >= kCurveAlone + kWithNetwork;
-  plan.scanned = level >= kCurveAlone + kWithNetwork + kWithSecond;
+  plan.observed = level < kCurveAlone + kWithNetwork                 ? Observed::network
+                  : level < kCurveAlone + kWithNetwork + kWithSecond ? Observed::second_specimen
+                                                                     : Observed::scan;
   const double network = dice.between(0.0, 1.0);
-  plan.bridges_at_rest = plan.scanned && network < 0.5;
-  plan.bridges_under_load = plan.scanned && network < 0.25;
+  plan.bridges_at_rest = plan.scanned() && network < 0.5;
+  plan.bridges_under_load = plan.scanned() && network < 0.25;
 }
 
 }  // namespace

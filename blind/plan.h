@@ -22,10 +22,12 @@ struct CasePlan {
   std::map<std::string, double> offsets;  ///< true less believed value, in its sd, by dotted key
   std::string law = "paper";              ///< that the truth follows: see laws()
   std::string engine;                     ///< that makes it: see engines(); empty: as the diagnosis does
-  bool short_specimen = false;            ///< whether B is tested
-  std::vector<std::string> kinds;         ///< of observation beside the compressions
-  bool scanned = false;                   ///< A's beads were followed to a second scan
+  Observed observed = Observed::curve;
+  std::vector<std::string> kinds;                            ///< of observation beside the compressions
   bool bridges_at_rest = false, bridges_under_load = false;  ///< the network was measured in these scans
+
+  bool short_specimen() const { return observed >= Observed::second_specimen; }  ///< whether B is tested
+  bool scanned() const { return observed == Observed::scan; }
 };
 
 /// The laws that truth may follow, and what they change of the sample.

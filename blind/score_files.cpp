@@ -113,8 +113,8 @@ ordered_json json_of(const Scores& scores, const Provenance& provenance) {
                        {"true_effects_median", json_of(scores.shrinkage.closable)},
                        {"withheld_median_beside", json_of(scores.shrinkage.closed)},
                        {"reached_0.7_of_that", json_of(scores.shrinkage.reached)}};
-  json["without_scan"] = json_of(scores.without_scan);
-  json["with_scan"] = json_of(scores.with_scan);
+  for (std::size_t k = 0; k < kObserved; ++k)
+    json["observed"][to_string(static_cast<Observed>(k))] = json_of(scores.by_observed[k]);
   json["other_engine"] = {{"without_scan", json_of(scores.other_engine_without_scan)},
                           {"with_scan", json_of(scores.other_engine_with_scan)}};
   json["hidden"] = {{"none_or_effect_in_set", json_of(scores.hidden.allowed)},

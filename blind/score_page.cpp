@@ -29,14 +29,17 @@ std::string row(const std::string& what, const std::string& found, const std::st
 
 /// What is promised, by what was observed.
 std::string bars_table(const Scores& s) {
-  const Bars* columns[] = {&s.without_scan, &s.with_scan, &s.other_engine_without_scan,
-                           &s.other_engine_with_scan};
   std::string text =
-      "| | no scan | aim | with a scan | aim | other engine, no scan | other engine, with a scan |\n"
-      "|---|---|---|---|---|---|---|\n";
+      "| | a curve alone | with Z and lateral strain | with a second specimen, too | aim | with a scan, too "
+      "| aim | other engine, no scan | other engine, with a scan |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
   const auto line = [&](const char* what, const char* aim, const char* aim_with_scan, const auto& found) {
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", what, found(*columns[0]), aim,
-                        found(*columns[1]), aim_with_scan, found(*columns[2]), found(*columns[3]));
+    const auto of = [&](Observed observed) {
+      return found(s.by_observed[static_cast<std::size_t>(observed)]);
+    };
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", what, of(Observed::curve),
+                        of(Observed::network), of(Observed::second_specimen), aim, of(Observed::scan),
+                        aim_with_scan, found(s.other_engine_without_scan), found(s.other_engine_with_scan));
   };
   line("right answer in the set", "≥ 90 %", "≥ 95 %", [](const Bars& b) { return words(b.naming.in_set); });
   line("mean size of the set", "≤ 2.5", "≤ 1.6", [](const Bars& b) { return number(b.naming.set_size); });

@@ -223,13 +223,14 @@ Scores score(const std::vector<Verdict>& all, bool without_truth) {
   scores.cases = all.size();
   const auto verdicts = those(all, [](const Verdict& v) { return !v.truth.hidden; });
   scores.hidden = hidden_score(those(all, [](const Verdict& v) { return v.truth.hidden; }));
-  for (const bool scanned : {false, true}) {
-    const auto like = [&](const Verdict& v) { return v.truth.scanned == scanned; };
-    const auto other = [&](const Verdict& v) { return like(v) && v.truth.stratum == Stratum::other_engine; };
-    (scanned ? scores.with_scan : scores.without_scan) = bars(those(verdicts, like));
+  for (std::size_t k = 0; k < kObserved; ++k)
+    scores.by_observed[k] =
+        bars(those(verdicts, [&](const Verdict& v) { return v.truth.observed == static_cast<Observed>(k); }));
+  for (const bool scanned : {false, true})
     (scanned ? scores.other_engine_with_scan : scores.other_engine_without_scan) =
-        bars(those(verdicts, other));
-  }
+        bars(those(verdicts, [&](const Verdict& v) {
+          return (v.truth.observed == Observed::scan) == scanned && v.truth.stratum == Stratum::other_engine;
+        }));
   scores.all = naming(verdicts), scores.all_by_class = naming(verdicts, Counting::by_class);
   scores.kept = kept(verdicts), scores.kept.limits = limits_held(all);
   std::vector<Verdict> priors;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -62,7 +63,7 @@ struct Kept {
   std::vector<ReliabilityBin> reliability;
 };
 
-/// What is promised, of cases with or without a scan.
+/// What is promised, of cases with the same observations.
 struct Bars {
   Naming naming;
   Proportion single_first;  ///< one effect was withheld, and it is the most probable
@@ -97,7 +98,7 @@ struct Scores {
   double auroc_unknown = 0.0;
   MagnitudeScore magnitude, magnitude_where_named;
   ShrinkageScore shrinkage;
-  Bars without_scan, with_scan;                            ///< of all engines
+  std::array<Bars, kObserved> by_observed;                 ///< of all engines
   Bars other_engine_without_scan, other_engine_with_scan;  ///< of the stratum other_engine alone
   HiddenScore hidden;
 };

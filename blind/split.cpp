@@ -20,6 +20,21 @@ const std::vector<std::string>& stratum_names() {
   return names;
 }
 
+const std::vector<std::string>& observed_names() {
+  static const std::vector<std::string> names = {"curve", "network", "second_specimen", "scan"};
+  return names;
+}
+
+/// The place of a word among those that are known.
+std::size_t place_among(const std::vector<std::string>& names, const std::string& word, const char* what,
+                        const std::string& where) {
+  const auto found = std::find(names.begin(), names.end(), word);
+  if (found == names.end())
+    bad_input("{}: unknown {} \"{}\", the nearest known one is \"{}\"", where, what, word,
+              nearest_name(word, names));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
 // Shares that leave each stratum of eighty cases some eight to thirty of them.
 constexpr std::array<double, kStrata> kDefaultShares = {0.35, 0.12, 0.20, 0.12, 0.12, 0.09, 0.0};
 
@@ -172,12 +187,15 @@ std::string to_string(Stratum stratum) {
 }
 
 Stratum stratum_of(const std::string& word, const std::string& where) {
-  const auto& names = stratum_names();
-  const auto found = std::find(names.begin(), names.end(), word);
-  if (found == names.end())
-    bad_input("{}: unknown stratum \"{}\", the nearest known one is \"{}\"", where, word,
-              nearest_name(word, names));
-  return static_cast<Stratum>(found - names.begin());
+  return static_cast<Stratum>(place_among(stratum_names(), word, "stratum", where));
+}
+
+std::string to_string(Observed observed) {
+  return observed_names()[static_cast<std::size_t>(observed)];
+}
+
+Observed observed_of(const std::string& word, const std::string& where) {
+  return static_cast<Observed>(place_among(observed_names(), word, "set of observations", where));
 }
 
 Split read_split(const fs::path& path, std::optional<std::uint64_t> seed) {

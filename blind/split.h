@@ -20,6 +20,15 @@ std::string to_string(Stratum stratum);
 /// BadInput, opening with `where`, for another word.
 Stratum stratum_of(const std::string& word, const std::string& where);
 
+/// What is measured in a case, each with all that those before have: the curve of specimen A; coordination
+/// and lateral strain; the curve of specimen B; a second scan of A, its beads followed.
+enum class Observed { curve, network, second_specimen, scan };
+inline constexpr std::size_t kObserved = 4;
+
+std::string to_string(Observed observed);
+/// BadInput, opening with `where`, for another word.
+Observed observed_of(const std::string& word, const std::string& where);
+
 /// Two specimens that cases share, as they are believed to be: what every case on them has in common.
 struct SharedPacking {
   std::uint64_t seed = 1;

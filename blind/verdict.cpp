@@ -147,7 +147,8 @@ Truth read_truth(const fs::path& sealed) {
     if (read.contains("engine")) truth.law = read["engine"].at("name").get<std::string>();
     if (truth.stratum == Stratum::wrong_belief) truth.wrong_belief = farthest_belief(read);
     truth.packing = read.at("packing").get<std::size_t>();
-    truth.hidden = read.value("hidden", false), truth.scanned = read.value("scanned", false);
+    truth.hidden = read.value("hidden", false);
+    truth.observed = observed_of(read.at("observed").get<std::string>(), sealed.string());
     return truth;
   });
 }

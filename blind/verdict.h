@@ -22,8 +22,8 @@ struct Truth {
   double mechanism_theta = 0.0;
   std::string law, wrong_belief;  ///< the law or engine; the value believed farthest off, in its stratum
   std::size_t packing = 1;
-  bool hidden = false;   ///< its effect is too small to be seen
-  bool scanned = false;  ///< displacements were measured
+  bool hidden = false;  ///< its effect is too small to be seen
+  Observed observed = Observed::curve;
 };
 
 /// An explanation as diagnosis.json gives it.

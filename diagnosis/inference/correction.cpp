@@ -21,16 +21,16 @@ double probability_of_pairs(const std::vector<Hypothesis>& said) {
   return sum;
 }
 
-/// Whether something stands in the set for an unseen explanation: none, or an effect of a pair that is more
-/// probable than the pair and is not strongly outdone by it.
+/// Whether something stands in the set for an unseen explanation: none or an effect of a pair, where it is
+/// more probable and, of a pair, not strongly outdone by it.
 bool stood_for(const Hypothesis& h, const std::vector<Hypothesis>& said, const AmbiguitySet& set,
                const Correction& correction) {
   if (!correction.unseen.contains(h.id)) return false;
   const bool pair = effects_in(h.id).size() == 2;
   for (const auto& id : plainer(h.id)) {
     const Hypothesis* other = said_of(said, id);
-    const bool ranks = !pair || (other && other->probability > h.probability &&
-                                 h.log_evidence - other->log_evidence <
+    const bool ranks = other && other->probability > h.probability &&
+                       (!pair || h.log_evidence - other->log_evidence <
                                      correction.temperature * std::log(kThresholds.strong));
     if (holds(set, id) && ranks) return true;
   }

@@ -45,7 +45,7 @@ TEST_F(Case, IsAnExperimentThatNeedsNoTruth) {
   fs::copy(root / "cases", elsewhere / "cases", fs::copy_options::recursive);
   for (const auto& plan : plan_of(*split)) {
     const auto experiment = diagnosis::read_experiment(elsewhere / "cases" / plan.name / "experiment.toml");
-    EXPECT_EQ(experiment.observations.size(), 1 + plan.short_specimen + plan.kinds.size() + plan.scanned +
+    EXPECT_EQ(experiment.observations.size(), 1 + plan.short_specimen() + plan.kinds.size() + plan.scanned() +
                                                   plan.bridges_at_rest + plan.bridges_under_load);
     EXPECT_TRUE(experiment.warnings.empty());
     const auto& a = experiment.observations.front();

@@ -113,14 +113,14 @@ TEST(Plan, ObservationsGoFromACurveAloneToScansUnderLoad) {
   std::map<std::string, double> share;
   for (const auto& plan : plan_of(split)) {
     share["alone"] += plan.kinds.empty() / n;
-    share["second"] += plan.short_specimen / n;
-    share["scanned"] += plan.scanned / n;
+    share["second"] += plan.short_specimen() / n;
+    share["scanned"] += plan.scanned() / n;
     share["rest"] += plan.bridges_at_rest / n;
     share["load"] += plan.bridges_under_load / n;
     // Each level has what the one before it has.
-    EXPECT_LE(plan.scanned, plan.short_specimen);
+    EXPECT_LE(plan.scanned(), plan.short_specimen());
     EXPECT_LE(plan.bridges_under_load, plan.bridges_at_rest);
-    EXPECT_LE(plan.bridges_at_rest, plan.scanned);
+    EXPECT_LE(plan.bridges_at_rest, plan.scanned());
     if (!plan.kinds.empty()) {
       EXPECT_EQ(plan.kinds[0], "coordination");
       EXPECT_EQ(plan.kinds[1], "lateral_strain");

@@ -21,8 +21,13 @@ using pendular::test::ScratchFolder;
 std::string seal(const fs::path& root, const std::string& name, const std::string& stratum,
                  const std::string& answer, const json& effects, const std::string& mechanism = "",
                  const json& more = json::object()) {
-  json truth = {{"case", name},   {"stratum", stratum}, {"answer", answer},
-                {"law", "paper"}, {"effects", effects}, {"packing", 1}};
+  json truth = {{"case", name},
+                {"stratum", stratum},
+                {"answer", answer},
+                {"law", "paper"},
+                {"effects", effects},
+                {"packing", 1},
+                {"observed", "second_specimen"}};
   truth["beliefs"]["contact.friction"] = {{"off_by_sigmas", -2.0}};
   if (!mechanism.empty()) truth["mechanism"] = {{"id", mechanism}, {"theta", 0.5}};
   truth.update(more);
@@ -111,8 +116,8 @@ TEST_F(Score, HiddenEffectsCountByThemselves) {
   const json tilt = {{{"id", "platen_tilt"}, {"theta", 0.01}}};
   std::string seals = "case,sha256\n";
   for (const char* name : {"h1", "h2", "h3"})
-    seals += seal(root, name, "library", "platen_tilt", tilt, "", {{"hidden", true}, {"scanned", true}});
-  seals += seal(root, "s1", "library", "platen_tilt", tilt, "", {{"hidden", false}, {"scanned", true}});
+    seals += seal(root, name, "library", "platen_tilt", tilt, "", {{"hidden", true}, {"observed", "scan"}});
+  seals += seal(root, "s1", "library", "platen_tilt", tilt, "", {{"hidden", false}, {"observed", "scan"}});
   write_text(root / "seals.csv", seals);
   report(reports / "h1", {claim("none", 0.9), claim("unknown", 0.1)}, {"none"});
   json unseen = {{"unseen", {{{"effect", "platen_tilt"}, {"limit_95", 0.1}}}}};
@@ -128,9 +133,10 @@ TEST_F(Score, HiddenEffectsCountByThemselves) {
   EXPECT_EQ(s.kept.limits.of, 1u);
   EXPECT_EQ(s.kept.limits.hits, 1u);
   EXPECT_EQ(s.all.in_set.of, 1u);
-  EXPECT_EQ(s.with_scan.single_first.hits, 1u);
-  EXPECT_EQ(s.with_scan.magnitude.covered.hits, 1u);
-  EXPECT_EQ(s.without_scan.naming.in_set.of, 0u);
+  const Bars& with_scan = s.by_observed[static_cast<std::size_t>(Observed::scan)];
+  EXPECT_EQ(with_scan.single_first.hits, 1u);
+  EXPECT_EQ(with_scan.magnitude.covered.hits, 1u);
+  EXPECT_EQ(s.by_observed[static_cast<std::size_t>(Observed::second_specimen)].naming.in_set.of, 0u);
 }
 
 /// Squared distances at usual magnitudes: friction is 2 from none and 4 from missing bridges, and so on.

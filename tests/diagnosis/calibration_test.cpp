@@ -116,6 +116,20 @@ TEST(Calibration, APairStandsBesideItsEffectsUnlessItIsNotToldFromThem) {
             (Ids{"a+b", "a"}));
 }
 
+TEST(Calibration, AnUnseenEffectIsInNoSetUnlessItIsMoreProbableThanNone) {
+  Correction correction;
+  correction.level = 0.95, correction.unseen = {"a"};
+  const auto said = [](double of_none) {
+    std::vector<Hypothesis> both = {{"a", 0.0, 0.9 - of_none, {}, 0.0}, {"none", 0.0, of_none, {}, 0.0}};
+    if (of_none > 0.45) std::swap(both[0], both[1]);
+    both.push_back({"b", 0.0, 0.1, {}, 0.0});
+    return both;
+  };
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(set_of(said(0.5), correction).ids, (Ids{"none", "b"}));
+  EXPECT_EQ(set_of(said(0.4), correction).ids, (Ids{"a", "none", "b"}));
+}
+
 TEST(Calibration, StrongEvidenceLetsAPairStandBesideItsEffect) {
   Correction correction;
   correction.level = 0.95, correction.temperature = 2.0, correction.unseen = {"a+b"};
