@@ -158,14 +158,18 @@ void Process::ask_to_end() const {
   if (child_ >= 0) ::kill(child_, SIGTERM);
 }
 
-int run(const Command& command, const Surroundings& surroundings) {
-  Process process(command, surroundings);
+int watch(Process& process) {
   while (!process.ended()) {
     stop_if_interrupted();
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   stop_if_interrupted();
   return process.wait();
+}
+
+int run(const Command& command, const Surroundings& surroundings) {
+  Process process(command, surroundings);
+  return watch(process);
 }
 
 Answer ask(const Command& command) {

@@ -59,6 +59,9 @@ class Process {
   int status_ = 0;  // once child_ is -1
 };
 
+/// Waits until a process ends and returns its exit status; Interrupted where the user stops this program.
+int watch(Process& process);
+
 /// Runs a command to its end; where the user stops this program it is ended too and Interrupted is thrown.
 int run(const Command& command, const Surroundings& surroundings = {});
 

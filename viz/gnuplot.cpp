@@ -2,16 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/process.h"
 #include "base/temporary_folder.h"
 #include "viz/comment.h"
 
 namespace pendular::viz {
 namespace {
+
+// Scripts that figures are spread over; each costs gnuplot a tenth of a second to start. What gnuplot writes
+// of a figure depends on those before it in its script, so the number must not depend on that of threads.
+constexpr std::size_t kScripts = 2;
 
 /// How a format is drawn. Figures are in pixels; each terminal has measures of its own.
 struct Format {
@@ -45,9 +51,10 @@ std::string drawn_name(std::size_t figure, std::size_t file) {
   return fmt::format("{}_{}", figure, file);
 }
 
-std::string script_of(std::span<const FigureFiles> figures) {
+/// Of every so-manyth figure, from `first` on.
+std::string script_of(std::span<const FigureFiles> figures, std::size_t first, std::size_t every) {
   std::string script = "set encoding utf8\n";
-  for (std::size_t k = 0; k < figures.size(); ++k) {
+  for (std::size_t k = first; k < figures.size(); k += every) {
     const Figure& figure = figures[k].figure;
     for (std::size_t f = 0; f < figures[k].files.size(); ++f) {
       const Format& format = format_of(figures[k].files[f]);
@@ -59,15 +66,26 @@ std::string script_of(std::span<const FigureFiles> figures) {
   return script;
 }
 
-void draw(const fs::path& folder, const std::string& script) {
+/// gnuplot at work on a script.
+struct Drawing {
+  fs::path log;
+  Process process;
+};
+
+Drawing draw(const fs::path& folder, const std::string& name, const std::string& script) {
   // Not write_text(), which waits for other files where they are written together (WrittenTogether).
-  std::ofstream(folder / "script", std::ios::binary) << script;
+  std::ofstream(folder / name, std::ios::binary) << script;
   // -d: without the user's settings.
-  const fs::path log = folder / "log";
-  const int status = run({"gnuplot", {"-d", "script"}}, {.log = log, .folder = folder});
+  const fs::path log = folder / (name + ".log");
+  return {log, Process({"gnuplot", {"-d", name}}, {.log = log, .folder = folder})};
+}
+
+void finish(Drawing& drawing) {
+  const int status = watch(drawing.process);
   if (status == kCannotBeStarted)
     throw ComputationFailed("charts need gnuplot: not found (Debian package gnuplot-nox)");
-  if (status != 0) throw ComputationFailed(fmt::format("gnuplot ended with {}: {}", status, last_line(log)));
+  if (status != 0)
+    throw ComputationFailed(fmt::format("gnuplot ended with {}: {}", status, last_line(drawing.log)));
 }
 
 }  // namespace
@@ -79,7 +97,14 @@ bool is_figure_name(const fs::path& file) {
 void write_figures(std::span<const FigureFiles> figures, const std::string& comment) {
   if (figures.empty()) return;
   const TemporaryFolder folder;
-  draw(folder.path(), script_of(figures));
+  const std::size_t parts = std::min(figures.size(), kScripts);
+  for (std::size_t first = 0; first < parts; first += thread_count()) {
+    std::vector<Drawing> drawings;
+    for (std::size_t part = first; part < std::min(parts, first + thread_count()); ++part)
+      drawings.push_back(
+          draw(folder.path(), fmt::format("script_{}", part), script_of(figures, part, parts)));
+    for (auto& drawing : drawings) finish(drawing);
+  }
   for (std::size_t k = 0; k < figures.size(); ++k)
     for (std::size_t f = 0; f < figures[k].files.size(); ++f) {
       const fs::path& file = figures[k].files[f];

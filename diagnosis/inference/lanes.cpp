@@ -9,6 +9,16 @@ constexpr std::size_t place(std::size_t row, std::size_t column) {
   return row * (row + 1) / 2 + column;
 }
 
+struct AddTimes {
+  static inline __attribute__((always_inline)) void run(LaneNumbers* rows, std::size_t size,
+                                                        const double* columns, const LaneNumbers* times) {
+    const Lanes by = lanes_of(*times);
+    for (std::size_t row = 0; row < size; ++row)
+      for (std::size_t column = 0; column <= row; ++column)
+        lanes_of(rows[place(row, column)]) += columns[row * size + column] * by;
+  }
+};
+
 /// Inverts the square roots of a column's pivots.
 inline __attribute__((always_inline)) void invert_root(LanesInMemory& pivot) {
   for (std::size_t lane = 0; lane < kLanes; ++lane) pivot[lane] = 1.0 / std::sqrt(pivot[lane]);
@@ -74,12 +84,7 @@ LaneFactors::LaneFactors(Eigen::Index size)
 }
 
 void LaneFactors::add(const Eigen::MatrixXd& matrix, const LaneNumbers& times) {
-  for (std::size_t row = 0; row < size_; ++row)
-    for (std::size_t column = 0; column <= row; ++column) {
-      const double number = matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column));
-      LaneNumbers& to = rows_[place(row, column)];
-      for (std::size_t lane = 0; lane < kLanes; ++lane) to[lane] += number * times[lane];
-    }
+  run_widest<AddTimes>(rows_.data(), size_, matrix.data(), &times);  // by columns, which it holds in a piece
 }
 
 void LaneFactors::add_diagonal(std::size_t lane, const Eigen::VectorXd& diagonal) {

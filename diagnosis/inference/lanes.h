@@ -17,7 +17,7 @@ class LaneFactors {
   /// Identity matrices.
   explicit LaneFactors(Eigen::Index size);
 
-  /// Adds to each lane's matrix so many times this one, of which the lower triangle is read. Before factor().
+  /// Adds to each lane's matrix so many times this one, of which the upper triangle is read. Before factor().
   void add(const Eigen::MatrixXd& matrix, const LaneNumbers& times);
   /// Adds to the diagonal of a lane's matrix. Before factor().
   void add_diagonal(std::size_t lane, const Eigen::VectorXd& diagonal);
