@@ -1,3 +1,5 @@
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -37,7 +39,11 @@ std::vector<micromechanics::BondStiffness> stiffness_per_pascal(
   const std::lock_guard lock(guard);
   if (kept.size() == kMostKept && !kept.contains(key)) kept.clear();
   auto& found = kept[key];
-  if (found.empty()) found = micromechanics::bridge_stiffnesses(bodies, {1.0, poisson_ratio}).bonds;
+  // Isolated: a thread that waits for its loops would otherwise take up another run, which asks for the lock.
+  if (found.empty())
+    found = tbb::this_task_arena::isolate([&] {
+      return micromechanics::bridge_stiffnesses(bodies, {1.0, poisson_ratio}).bonds;
+    });
   return found;
 }
 
