@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "base/parallel.h"
 #include "base/random.h"
+#include "micromechanics/bridge_fe.h"
 #include "micromechanics/stiffness.h"
 #include "observations.h"
 
@@ -63,6 +65,27 @@ TEST(BridgeStiffness, BridgesFromTheSpecimenHaveItsGaps) {
     mean += std::log(bond.normal) / 4000.0;
   EXPECT_NEAR(std::log(simulated(cut, sample).at("kn_n_per_m")[0]), mean, 0.03);
   EXPECT_EQ(simulated(made, sample).at("kn_n_per_m"), simulated(made, Sample{}).at("kn_n_per_m"));
+}
+
+TEST(BridgeStiffness, IsAskedForByManyThreadsAtOnce) {
+  // Runs of a bank are read on all cores, and what they ask for is computed on all cores under a lock.
+  constexpr std::size_t kRuns = 4, kBridges = 4;
+  const std::vector<double> necks = {50.0, 60.0, 70.0, 80.0};
+  const Observation table = tested({{"d_um", necks}, {"D_um", std::vector<double>(kBridges, 200.0)}});
+  std::vector<Columns> found(kRuns);
+  for_blocks(kRuns, 1, [&](std::size_t run, std::size_t) {
+    Observation other = table;
+    other.numbers["gap_um"] = 2.0 + 0.1 * static_cast<double>(run);
+    found[run] = simulated(other, Sample{});
+  });
+  for (const std::size_t run : {std::size_t{0}, kRuns - 1})
+    for (std::size_t k = 0; k < kBridges; ++k) {
+      const micromechanics::BridgeBody body{1e-6 * necks[k], 1e-6 * (2.0 + 0.1 * static_cast<double>(run)),
+                                            200e-6, 200e-6};
+      const double expected =
+          micromechanics::bridge_stiffness(body, micromechanics::polymer_of(Sample{})).normal;
+      EXPECT_NEAR(found[run].at("kn_n_per_m")[k] / expected, 1.0, 1e-3);
+    }
 }
 
 TEST(BridgeStiffness, LevelAndExponentOfAPowerLaw) {
