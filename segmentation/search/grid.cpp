@@ -2,7 +2,6 @@
 
 #include <itkImportImageFilter.h>
 #include <itkMultiThreaderBase.h>
-#include <itkSignedMaurerDistanceMapImageFilter.h>
 #include <itkSmoothingRecursiveGaussianImageFilter.h>
 
 #include "base/error.h"
@@ -90,18 +89,6 @@ Grid<float> reduced(const Volume& volume, std::size_t factor, double sd) {
     });
   });
   return grid;
-}
-
-Grid<float> distance_inside(const Grid<std::uint8_t>& mask) {
-  auto filter = itk::SignedMaurerDistanceMapImageFilter<itk::Image<std::uint8_t, 3>, FloatImage>::New();
-  filter->SetSquaredDistance(false);
-  filter->SetUseImageSpacing(false);
-  filter->SetInsideIsPositive(true);
-  Grid<float> distance = filtered(*filter, mask);
-  // The map counts from the centres of the mask's outermost nodes, half a node within its surface.
-  for (std::size_t n = 0; n < mask.values.size(); ++n)
-    distance.values[n] = mask.values[n] ? std::abs(distance.values[n]) + 0.5f : 0.0f;
-  return distance;
 }
 
 }  // namespace pendular::segmentation

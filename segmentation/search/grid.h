@@ -52,8 +52,4 @@ Grid<T> part_of(const Grid<T>& grid, const Box& box) {
 /// nodes along an axis is not convolved.
 Grid<float> reduced(const Volume& volume, std::size_t factor, double sd);
 
-/// For each node with a nonzero mask the distance, in nodes, to the surface of the mask; elsewhere not
-/// positive (ITK's signed Maurer map, on one thread). What lies outside the grid counts as neither.
-Grid<float> distance_inside(const Grid<std::uint8_t>& mask);
-
 }  // namespace pendular::segmentation

@@ -8,50 +8,22 @@
 #include <unordered_map>
 
 #include "base/parallel.h"
+#include "segmentation/search/distance_map.h"
+#include "segmentation/search/erosion.h"
 
 namespace pendular::segmentation {
 namespace {
 
-/// Sets nodes to zero but those with `reach` nodes of the mask on either side along one line of it; beyond
-/// its ends there may be anything.
-void erode_line(std::uint8_t* first, std::size_t count, std::size_t stride, std::size_t reach) {
-  std::size_t run = reach;
-  for (std::size_t n = 0; n < count + reach; ++n) {
-    run = n >= count || first[n * stride] ? run + 1 : 0;
-    if (n >= reach) first[(n - reach) * stride] = run > 2 * reach;
-  }
-}
-
-/// The same for `width` lines side by side, a row at a time.
-void erode_rows(std::uint8_t* first, std::size_t width, std::size_t count, std::size_t stride,
-                std::size_t reach) {
-  std::vector<std::uint32_t> run(width, static_cast<std::uint32_t>(reach));
-  const auto enough = static_cast<std::uint32_t>(2 * reach);
-  for (std::size_t n = 0; n < count + reach; ++n) {
-    const std::uint8_t* row = n < count ? first + n * stride : nullptr;
-    for (std::size_t i = 0; i < width; ++i) run[i] = !row || row[i] ? run[i] + 1 : 0;
-    if (n < reach) continue;
-    std::uint8_t* out = first + (n - reach) * stride;
-    for (std::size_t i = 0; i < width; ++i) out[i] = run[i] > enough;
-  }
-}
-
 /// What nodes of slices [from, to) whose ball of `radius` nodes may be within the mask take up: those with a
 /// cube of the mask around them that such a ball holds. None if there is no such node.
 std::optional<Box> roomy(const Grid<std::uint8_t>& mask, std::size_t from, std::size_t to, double radius) {
-  const std::size_t nx = mask.size[0], ny = mask.size[1], nz = to - from, slice = nx * ny;
-  const auto begin = mask.values.begin() + static_cast<std::ptrdiff_t>(from * slice);
-  std::vector<std::uint8_t> core(begin, begin + static_cast<std::ptrdiff_t>(nz * slice));
-  const auto reach = static_cast<std::size_t>(std::max(0.0, radius - 0.5) / std::sqrt(3.0));
-  for (std::size_t k = 0; k < nz; ++k) {
-    for (std::size_t j = 0; j < ny; ++j) erode_line(core.data() + k * slice + j * nx, nx, 1, reach);
-    erode_rows(core.data() + k * slice, nx, ny, nx, reach);
-  }
-  erode_rows(core.data(), slice, nz, slice, reach);
+  const std::size_t nx = mask.size[0], ny = mask.size[1], nz = to - from;
+  Grid<std::uint8_t> core = part_of(mask, {{0, 0, from}, {nx, ny, to}});
+  erode(core, static_cast<std::size_t>(std::max(0.0, radius - 0.5) / std::sqrt(3.0)));
   Box box{{nx, ny, nz}, {0, 0, 0}};
   for (std::size_t k = 0; k < nz; ++k)
     for (std::size_t j = 0; j < ny; ++j) {
-      const std::uint8_t* row = core.data() + k * slice + j * nx;
+      const std::uint8_t* row = core.values.data() + core.index(0, j, k);
       const auto* first = static_cast<const std::uint8_t*>(std::memchr(row, 1, nx));
       if (!first) continue;
       const auto* last = static_cast<const std::uint8_t*>(::memrchr(row, 1, nx));
