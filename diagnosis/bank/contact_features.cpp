@@ -1,5 +1,6 @@
 #include "diagnosis/bank/contact_features.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/thresholds.h"
@@ -18,12 +19,13 @@ std::vector<ContactFeature> contact_features(const ContactPeak& peak) {
   std::vector<ContactFeature> features = {
       {{kBeads, "contact_gap_um", Scale::network, false, kUm * peak.position},
        std::hypot(kTouchingGap * diameter, kUm * peak.sigma_position())}};
-  // The flank of pairs that are apart hides part of a wide peak.
+  // Variances add: what touching beads are apart by themselves is no more than what was measured. The flank
+  // of pairs that are apart hides part of a wide peak.
+  const double measured = scatter * scatter, own = std::pow(kTouchingScatter * diameter, 2);
   if (stated > 0.0)
-    features.push_back({{kBeads, "contact_variance_um2", Scale::network, false, scatter * scatter},
-                        std::hypot(std::hypot(std::pow(kTouchingScatter * diameter, 2),
-                                              kThresholds.stated_variance * stated * stated),
-                                   kThresholds.flank * scatter * scatter)});
+    features.push_back({{kBeads, "contact_variance_um2", Scale::network, false, measured},
+                        std::hypot(std::min(own, measured), kThresholds.stated_variance * stated * stated,
+                                   kThresholds.flank * measured)});
   return features;
 }
 
