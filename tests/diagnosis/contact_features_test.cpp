@@ -71,12 +71,12 @@ TEST(ContactFeatures, AreWhatTheErrorsMakeOfTheTables) {
 }
 
 TEST(ContactFeatures, ANarrowPeakLeavesNoRoomForUnreportedErrors) {
-  // Variances add: 0.5 um along each axis would make the gaps of touching beads scatter by 0.7 um.
+  // Variances add: 1 um along each axis would make the gaps of touching beads scatter by 1.5 um.
   const auto peak = contact_peak({measured_beads()});
   ASSERT_TRUE(peak);
-  ASSERT_LT(peak->scatter, 0.3e-6);
+  ASSERT_LT(peak->scatter, 0.5e-6);
   const auto seen = contact_features(*peak),
-             with = contact_features(expected_contacts(*peak, {{"position_error", 0.5}}));
+             with = contact_features(expected_contacts(*peak, {{"position_error", 1.0}}));
   const char* width = "contact_variance_um2";
   EXPECT_GT(named(with, width).feature.value - named(seen, width).feature.value,
             5.0 * named(seen, width).sigma);
