@@ -47,11 +47,11 @@ struct Promise {
 /// From replayed runs with no effect, one, or a pair that was run. `confidence` in (0, 1). Sets are
 /// split-conformal: the least level at which ⌈(n+1) confidence⌉ of n replayed sets hold their truth (Vovk et
 /// al. 2005). Effects whose runs are told from none at that level no more often than slips of 5 % explain
-/// (binomial test at 5 %) are unseen: none stands for them in a set where it is more probable, and the level is found again.
-/// Pairs that are not told from one of their effects likewise, where the evidence is not strongly for them.
-/// `unknown` is let in by the same rule at a false-alarm rate of 5 %, half of it for its probability and half
-/// for χ² of the best explanation; intervals of θ likewise at 90 %, those of effects with few runs drawn to
-/// what all need; upper limits at 95 %.
+/// (binomial test at 5 %) are unseen: none stands for them in a set where it is more probable, and the level
+/// is found again. Pairs that are not told from one of their effects likewise, where the evidence is not
+/// strongly for them. `unknown` is let in by the same rule at a false-alarm rate of 5 %, half of it for its
+/// probability and half for χ² of the best explanation; intervals of θ likewise at 90 %, those of effects
+/// with few runs drawn to what all need; upper limits at 95 %.
 ///
 /// Nothing is learnt from runs whose effect was left out; what becomes of them is counted.
 Promise promise_of(const std::vector<Replayed>& replayed, double confidence);

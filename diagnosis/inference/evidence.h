@@ -61,8 +61,8 @@ std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& sign
                               Pairs pairs = Pairs::all);
 
 /// Squared distance, in units of the noise, from each signature at its scale, at the sign that shows more, to
-/// the nearest that another can make with any magnitude: below nine the two cannot be told apart. The last column is the distance from no
-/// effect: what is below nine there cannot be seen.
+/// the nearest that another can make with any magnitude: below nine the two cannot be told apart. The last
+/// column is the distance from no effect: what is below nine there cannot be seen.
 Eigen::MatrixXd isolability(const Gap& gap, const std::vector<Signature>& signatures);
 
 }  // namespace pendular::diagnosis
