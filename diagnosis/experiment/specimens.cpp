@@ -101,16 +101,16 @@ sweep::PackingSource MemberPackings::of(const Condition& condition, int member, 
   const auto& s = condition.sample;
   const std::string what = fmt::format("{} {} {} {} {}{}", member, s.specimen.diameter, s.specimen.height,
                                        s.bridges.cutoff, s.beads.diameter, measured_otherwise(changed));
-  const auto [known, fresh] = known_.try_emplace(
-      fmt::format("{}\n{}\n{}", condition.beads.string(), condition.network.string(), what));
-  if (!fresh) return known->second;
+  const std::string key =
+      fmt::format("{}\n{}\n{}", condition.beads.string(), condition.network.string(), what);
+  if (const auto known = known_.find(key); known != known_.end()) return known->second;
   const std::string name =
       sha256(fmt::format("closed {} {}{}", sha256_of(condition.beads), what,
                          condition.network.empty() ? "" : fmt::format(" {}", sha256_of(condition.network))));
   const fs::path path = folder_ / (name.substr(0, 16) + ".vtp");
   make_inner_folder(folder_);
   if (!is_there(path)) write_packing(path, measured_packing(condition, member, changed));
-  return known->second = sweep::packing_file(path);
+  return known_[key] = sweep::packing_file(path);
 }
 
 double beads_in(const Condition& condition) {
