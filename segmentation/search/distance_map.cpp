@@ -12,9 +12,10 @@ namespace {
 
 using Square = std::int32_t;
 
-// Where a line has no surface: more than any square, with room for another one beside it.
-constexpr Square kNowhere = 1 << 29;
-constexpr std::size_t kWidth = 16;  // lines side by side
+// Along each axis; three of its squares are less than kNowhere, and two beside that are a number yet.
+constexpr Square kFarthest = 10000;
+constexpr Square kNowhere = 1 << 29;  // the square where no surface is that near
+constexpr std::size_t kWidth = 16;    // lines side by side
 
 /// Squares of lines side by side, in the compiler's vector.
 using Squares = Square __attribute__((vector_size(kWidth * sizeof(Square))));
@@ -43,7 +44,7 @@ struct LeastOnLines {
       Squares least = from[n].of;
       const double beyond = std::sqrt(before) + 1.0,
                    reach = std::sqrt(std::min<double>(greatest_of(least), beyond * beyond));
-      const auto most = static_cast<std::size_t>(reach) + 1;
+      const auto most = std::min<std::size_t>(static_cast<std::size_t>(reach) + 1, kFarthest);
       const std::size_t down = std::min(most, n), up = std::min(most, count - 1 - n);
       for (std::size_t d = 1; d <= down; ++d) set_least(least, from[n - d].of + static_cast<Square>(d * d));
       for (std::size_t d = 1; d <= up; ++d) set_least(least, from[n + d].of + static_cast<Square>(d * d));
@@ -74,9 +75,9 @@ void least_on_lines(Square* first, std::size_t width, std::size_t count, std::si
 void squares_on_row(const std::uint8_t* mask, const std::uint8_t* core, std::size_t count, Square* squares) {
   const auto size = static_cast<std::ptrdiff_t>(count);
   const auto scan = [&](std::ptrdiff_t first, std::ptrdiff_t step, const auto& take) {
-    Square way = -1;  // from the last such node; negative: none yet
+    Square way = -1;  // from the last such node; negative: none near
     for (std::ptrdiff_t n = first; n >= 0 && n < size; n += step) {
-      way = mask[n] && !core[n] ? 0 : way < 0 ? -1 : way + 1;
+      way = mask[n] && !core[n] ? 0 : way < 0 || way == kFarthest ? -1 : way + 1;
       take(squares[n], way < 0 ? kNowhere : way * way);
     }
   };

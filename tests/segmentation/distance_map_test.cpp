@@ -74,6 +74,22 @@ TEST(DistanceMap, OfAMaskWithoutASurfaceIsEndless) {
   for (const float one : distance_inside(none).values) EXPECT_EQ(one, 0.0F);
 }
 
+TEST(DistanceMap, OfALongLineEndsWhereItSays) {
+  constexpr std::size_t kFarthest = 10000;
+  constexpr std::size_t kLengths[] = {60000, 11000, 11000};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t length = kLengths[axis];
+    Grid<std::uint8_t> line{{1, 1, 1}, 1.0, std::vector<std::uint8_t>(length, 1)};
+    line.size[axis] = length;
+    line.values[0] = 0;  // so that node 1 is the surface
+    const Grid<float> found = distance_inside(line);
+    for (const std::size_t n : {std::size_t{1}, std::size_t{2}, kFarthest, kFarthest + 1})
+      EXPECT_EQ(found.values[n], static_cast<float>(n) - 0.5F) << axis;
+    for (const std::size_t n : {kFarthest + 2, length - 1})
+      EXPECT_EQ(found.values[n], std::numeric_limits<float>::max()) << axis;
+  }
+}
+
 // Another program's map.
 TEST(DistanceMap, IsThatOfITK) {
   auto mask = random_mask({70, 61, 50}, 40, 11.0, 3);
