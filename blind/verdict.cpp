@@ -148,6 +148,11 @@ Truth read_truth(const fs::path& sealed) {
     if (truth.stratum == Stratum::wrong_belief) truth.wrong_belief = farthest_belief(read);
     truth.packing = read.at("packing").get<std::size_t>();
     truth.hidden = read.value("hidden", false);
+    if (!read.contains("observed"))
+      bad_input(
+          "{}: observed: is missing, expected what was measured (splits of earlier versions have to be made "
+          "anew)",
+          sealed.string());
     truth.observed = observed_of(read.at("observed").get<std::string>(), sealed.string());
     return truth;
   });

@@ -111,6 +111,24 @@ TEST_F(Score, CountsNames) {
   EXPECT_EQ(s.by_answer.at("unknown").in_set.hits, 1u);
 }
 
+TEST_F(Score, ATruthThatDoesNotSayWhatWasObservedIsRefused) {
+  const fs::path sealed = folder / "split/sealed/c1.json";
+  json truth = json::parse(read_text(sealed));
+  const auto refused = [&](const std::string& says) {
+    write_text(sealed, truth.dump());
+    try {
+      read_truth(sealed);
+      ADD_FAILURE() << says;
+    } catch (const BadInput& error) {
+      EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+    }
+  };
+  truth["observed"] = "scans";
+  refused("the nearest known one is \"scan\"");
+  truth.erase("observed");
+  refused("have to be made anew");
+}
+
 TEST_F(Score, HiddenEffectsCountByThemselves) {
   const fs::path root = folder / "hidden";
   const json tilt = {{{"id", "platen_tilt"}, {"theta", 0.01}}};
