@@ -10,6 +10,7 @@
 #endif
 
 #include <cmath>
+#include <cstdint>
 
 #include "dem_core/law/law_parameters.h"
 #include "hwy/highway.h"
@@ -110,6 +111,44 @@ HWY_INLINE bool any(LaneMask a) {
 }
 HWY_INLINE Lanes same(double value, Lanes /*like*/) {
   return {hn::Set(Lanes::Tag(), value)};
+}
+
+/// Whole numbers, as many as `Lanes` has.
+struct WholeLanes {
+  using Tag = hn::RebindToSigned<Lanes::Tag>;
+  hn::Vec<Tag> v;
+};
+HWY_INLINE WholeLanes operator+(WholeLanes a, WholeLanes b) {
+  return {hn::Add(a.v, b.v)};
+}
+HWY_INLINE WholeLanes operator-(WholeLanes a, WholeLanes b) {
+  return {hn::Sub(a.v, b.v)};
+}
+/// Doubles from 2^52 to 2^53 are whole numbers, and follow each other as their bits do.
+constexpr double kMiddle = 0x1.8p52;
+
+/// In its lowest 48 bits the whole number nearest to a·b, for a·b within ±2^47; the others are of no meaning.
+HWY_INLINE WholeLanes nearest_in_48_bits(Lanes a, Lanes b) {
+  return {hn::BitCast(WholeLanes::Tag(), hn::MulAdd(a.v, b.v, hn::Set(Lanes::Tag(), kMiddle)))};
+}
+/// Into `to`: GCC 12 returns such a struct through memory, in pieces.
+HWY_INLINE void put_nearest_in_48_bits(Lanes a, const Triple<Lanes>& b, Triple<WholeLanes>& to) {
+  to.x = nearest_in_48_bits(a, b.x), to.y = nearest_in_48_bits(a, b.y), to.z = nearest_in_48_bits(a, b.z);
+}
+/// The number in the lowest 48 bits.
+template <class D, class V>
+HWY_INLINE hn::Vec<D> from_48_bits(D to, V whole) {
+  constexpr double kLowest = 0x1p52, kShift = 0x1p47;  // from 2^52 on, doubles have whole numbers as last bits
+  const hn::RebindToSigned<D> bits;
+  const auto shifted = hn::And(hn::Add(whole, hn::Set(bits, std::int64_t{1} << 47)),
+                               hn::Set(bits, (std::int64_t{1} << 48) - 1));
+  const auto above = hn::BitCast(to, hn::Or(shifted, hn::BitCast(bits, hn::Set(to, kLowest))));
+  return hn::Sub(above, hn::Set(to, kLowest + kShift));
+}
+/// In all bits the whole number nearest to a·b, for a·b within ±2^51.
+HWY_INLINE WholeLanes nearest(Lanes a, Lanes b) {
+  const WholeLanes::Tag tag;
+  return nearest_in_48_bits(a, b) - WholeLanes{hn::BitCast(tag, hn::Set(Lanes::Tag(), kMiddle))};
 }
 
 template <typename Real>

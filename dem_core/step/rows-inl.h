@@ -23,6 +23,7 @@ constexpr std::size_t kLanes = HWY_LANES(double);
 
 /// Rows of four numbers. A register may hold a whole row or part of it.
 using Row = hn::CappedTag<double, 4>;
+using WholeRow = hn::RebindToSigned<Row>;
 
 /// Where in a table the rows of `kLanes` pairs begin.
 using Places = const std::uint32_t*;
@@ -106,15 +107,15 @@ HWY_INLINE void differences(const double* table, Places i, Places j, Columns& fi
 
 #endif
 
-using LanesOf = hn::Vec<Lanes::Tag>;
+using Whole = hn::Vec<WholeLanes::Tag>;
 
 #if HWY_MAX_BYTES == 64
 
 /// Of each pair a row: three numbers and zero, three more and zero.
-HWY_INLINE void to_rows(const Triple<Lanes>& first, const Triple<Lanes>& last, LanesOf (&rows)[8]) {
-  const Lanes::Tag tag;
+HWY_INLINE void to_rows(const Triple<WholeLanes>& first, const Triple<WholeLanes>& last, Whole (&rows)[8]) {
+  const WholeLanes::Tag tag;
   const auto zero = hn::Zero(tag);
-  const auto four = [&](std::size_t p, LanesOf x, LanesOf y, LanesOf z) {
+  const auto four = [&](std::size_t p, Whole x, Whole y, Whole z) {
     const auto xy = hn::InterleaveLower(tag, x, y), xy_next = hn::InterleaveUpper(tag, x, y);
     const auto z0 = hn::InterleaveLower(tag, z, zero), z0_next = hn::InterleaveUpper(tag, z, zero);
     rows[p] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(z0), xy);
@@ -134,8 +135,8 @@ HWY_INLINE void to_rows(const Triple<Lanes>& first, const Triple<Lanes>& last, L
 constexpr std::size_t kParts = 4 / kLanes;
 
 /// Of each pair a row: three numbers and zero.
-HWY_INLINE void to_rows(const Triple<Lanes>& t, LanesOf (&rows)[kLanes][kParts]) {
-  [[maybe_unused]] const Lanes::Tag tag;
+HWY_INLINE void to_rows(const Triple<WholeLanes>& t, Whole (&rows)[kLanes][kParts]) {
+  [[maybe_unused]] const WholeLanes::Tag tag;
   const auto zero = hn::Zero(tag);
 #if HWY_MAX_BYTES == 32
   const auto xy = hn::InterleaveLower(tag, t.x.v, t.y.v), xy_next = hn::InterleaveUpper(tag, t.x.v, t.y.v);

@@ -48,7 +48,7 @@ struct Batch {
   };
   Columns3 n, sliding;
   HWY_ALIGN Column gap, closing, twist;
-  HWY_ALIGN Column arm_i, arm_j;  ///< minus the arms: half gap and radius
+  HWY_ALIGN Column arm_i, arm_j;  ///< half gap and radius
   Columns3 spin, turning;         ///< where the law has bending
   Columns3 force, couple, moment;
 };
@@ -89,45 +89,65 @@ HWY_INLINE void read_motion(const PairBlock& block, std::size_t lane, const Bead
   store(seen.gap, batch.gap + at), store(seen.closing, batch.closing + at),
       store(seen.twist, batch.twist + at);
   const Lanes half = same(0.5, difference);
-  const Lanes mean = neg_mul_add(half, motion.radii, -(half * seen.gap));
-  store(neg_mul_add(half, difference, mean), batch.arm_i + at);
-  store(mul_add(half, difference, mean), batch.arm_j + at);
+  const Lanes mean = mul_add(half, motion.radii, half * seen.gap);
+  store(mul_add(half, difference, mean), batch.arm_i + at);
+  store(neg_mul_add(half, difference, mean), batch.arm_j + at);
   if (bending) store(motion.spin, batch.spin, at), store(spin_i.xyz - spin_j.xyz, batch.turning, at);
+}
+
+/// Over one quantum.
+struct PerQuantum {
+  Lanes force, torque, energy;
+};
+
+/// What pairs do to bead i, and what is taken from bead j.
+struct Shares {
+  Triple<WholeLanes> force, on_i, from_j;
+};
+template <bool bending>
+HWY_INLINE void put_shares(const Batch& batch, std::size_t at, const PerQuantum& per, Shares& to) {
+  const Triple<Lanes> force = load(batch.force, at), couple = load(batch.couple, at);
+  const Lanes arm_i = load(batch.arm_i + at), arm_j = load(batch.arm_j + at);
+  put_nearest_in_48_bits(per.force, force, to.force);
+  if (bending) {
+    const Triple<Lanes> moment = load(batch.moment, at);
+    put_nearest_in_48_bits(per.torque, neg_mul_add(arm_i, couple, moment), to.on_i);
+    put_nearest_in_48_bits(per.torque, mul_add(arm_j, couple, moment), to.from_j);
+  } else {
+    put_nearest_in_48_bits(-per.torque * arm_i, couple, to.on_i);
+    put_nearest_in_48_bits(per.torque * arm_j, couple, to.from_j);
+  }
 }
 
 /// Adds what pairs do to the sums of their beads, one pair after the other.
 template <bool bending>
 HWY_INLINE void add_to_beads(const PairBlock& block, std::size_t lane, const Batch& batch, std::size_t at,
-                             double* sums) {
-  const Triple<Lanes> force = load(batch.force, at), couple = load(batch.couple, at);
-  Triple<Lanes> torque_i = load(batch.arm_i + at) * couple, torque_j = load(batch.arm_j + at) * couple;
-  if (bending) {
-    const Triple<Lanes> moment = load(batch.moment, at);
-    torque_i = torque_i + moment, torque_j = torque_j - moment;
-  }
+                             const PerQuantum& per, std::int64_t* sums) {
+  Shares shares;
+  put_shares<bending>(batch, at, per, shares);
   const std::uint32_t *i = block.sum_i + lane, *j = block.sum_j + lane;
 #if HWY_MAX_BYTES == 64
-  const Lanes::Tag tag;
-  LanesOf on_i[kLanes], on_j[kLanes];
-  to_rows(force, torque_i, on_i);
-  to_rows(-force, torque_j, on_j);
+  const WholeLanes::Tag tag;
+  Whole on_i[kLanes], from_j[kLanes];
+  to_rows(shares.force, shares.on_i, on_i);
+  to_rows(shares.force, shares.from_j, from_j);
   for (std::size_t p = 0; p < kLanes; ++p) {
     hn::Store(hn::Add(hn::Load(tag, sums + i[p]), on_i[p]), tag, sums + i[p]);
-    hn::Store(hn::Add(hn::Load(tag, sums + j[p]), on_j[p]), tag, sums + j[p]);
+    hn::Store(hn::Sub(hn::Load(tag, sums + j[p]), from_j[p]), tag, sums + j[p]);
   }
 #else
-  const Row row;
-  LanesOf on_i[kLanes][kParts], turning_i[kLanes][kParts], turning_j[kLanes][kParts];
-  to_rows(force, on_i);
-  to_rows(torque_i, turning_i);
-  to_rows(torque_j, turning_j);
+  const WholeRow row;
+  Whole pushing[kLanes][kParts], turning_i[kLanes][kParts], turning_j[kLanes][kParts];
+  to_rows(shares.force, pushing);
+  to_rows(shares.on_i, turning_i);
+  to_rows(shares.from_j, turning_j);
   for (std::size_t p = 0; p < kLanes; ++p)
     for (std::size_t part = 0, c = 0; part < kParts; ++part, c += kLanes) {
-      double *a = sums + i[p] + c, *b = sums + j[p] + c;
-      hn::Store(hn::Add(hn::Load(row, a), on_i[p][part]), row, a);
+      std::int64_t *a = sums + i[p] + c, *b = sums + j[p] + c;
+      hn::Store(hn::Add(hn::Load(row, a), pushing[p][part]), row, a);
       hn::Store(hn::Add(hn::Load(row, a + 4), turning_i[p][part]), row, a + 4);
-      hn::Store(hn::Sub(hn::Load(row, b), on_i[p][part]), row, b);
-      hn::Store(hn::Add(hn::Load(row, b + 4), turning_j[p][part]), row, b + 4);
+      hn::Store(hn::Sub(hn::Load(row, b), pushing[p][part]), row, b);
+      hn::Store(hn::Sub(hn::Load(row, b + 4), turning_j[p][part]), row, b + 4);
     }
 #endif
 }
@@ -145,9 +165,10 @@ void note_breaks(LaneMask breaking, std::size_t first, Chunk& chunk) {
 struct Constants {
   LawNumbers<Lanes> law;
   LawParts parts;
+  PerQuantum per;
 };
 struct Losses {
-  Lanes damped, slipped;
+  WholeLanes damped, slipped;
 };
 
 /// Advances the pairs of a block from `lane` on, whose columns of the batch begin at `at`. Returns which
@@ -196,21 +217,22 @@ HWY_INLINE LaneMask advance_lanes(PairBlock& block, ContactBlock* contact, BendB
   }
   store(action.force, batch.force, at), store(action.couple, batch.couple, at);
   if (bending) store(action.moment, batch.moment, at);
-  losses.damped = losses.damped + action.damped;
-  losses.slipped = losses.slipped + action.slipped;
+  losses.damped = losses.damped + nearest(action.damped, given.per.energy);
+  losses.slipped = losses.slipped + nearest(action.slipped, given.per.energy);
   return both(data.kn > zero, breaks(seen.gap, memory.bond_slip, data));
 }
 
 template <bool may_touch, bool bending>
 void advance(PairTable& pairs, BeadTable& beads, std::size_t first, std::size_t last,
-             const LawNumbers<double>& law, LawParts parts, Chunk& chunk) {
-  const Lanes::Tag tag;
-  const Lanes zero = {hn::Zero(tag)};
+             const LawNumbers<double>& law, LawParts parts, const Quanta& quanta, Chunk& chunk) {
+  const WholeLanes::Tag tag;
+  const Lanes zero = {hn::Zero(Lanes::Tag())};
   const Constants given = {
       {same(law.k_glass, zero), same(law.kt_glass, zero), same(law.friction, zero), same(law.damping, zero),
        same(law.dt, zero), same(law.half_dt, zero), same(law.half_damping_dt, zero)},
-      parts};
-  Losses losses = {zero, zero};
+      parts,
+      {same(1.0 / quanta.force, zero), same(1.0 / quanta.torque, zero), same(1.0 / quanta.energy, zero)}};
+  Losses losses = {{hn::Zero(tag)}, {hn::Zero(tag)}};
   PairBlock* const blocks = pairs.blocks.data();
   ContactBlock* const contacts = pairs.contacts.data();
   BendBlock* const bends = pairs.bends.data();
@@ -231,35 +253,35 @@ void advance(PairTable& pairs, BeadTable& beads, std::size_t first, std::size_t 
       if (any(breaking)) note_breaks(breaking, kBlock * b + lane, chunk);
     });
     for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
-      add_to_beads<bending>(blocks[b], lane, batch, at, beads.sums.data());
+      add_to_beads<bending>(blocks[b], lane, batch, at, given.per, beads.sums.data());
     });
   }
-  chunk.damped += hn::GetLane(hn::SumOfLanes(tag, losses.damped.v));
-  chunk.slipped += hn::GetLane(hn::SumOfLanes(tag, losses.slipped.v));
+  add(chunk.damped, hn::GetLane(hn::SumOfLanes(tag, losses.damped.v)));
+  add(chunk.slipped, hn::GetLane(hn::SumOfLanes(tag, losses.slipped.v)));
 }
 
 template <bool bending>
 void advance(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<double>& law,
-             LawParts parts) {
-  advance<false, bending>(pairs, beads, chunk.first_block, chunk.touchable, law, parts, chunk);
-  advance<true, bending>(pairs, beads, chunk.touchable, chunk.last_block, law, parts, chunk);
+             LawParts parts, const Quanta& quanta) {
+  advance<false, bending>(pairs, beads, chunk.first_block, chunk.touchable, law, parts, quanta, chunk);
+  advance<true, bending>(pairs, beads, chunk.touchable, chunk.last_block, law, parts, quanta, chunk);
 }
 
 void AdvancePairs(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<double>& law,
-                  LawParts parts) {
+                  LawParts parts, const Quanta& quanta) {
   if (parts.bending)
-    advance<true>(pairs, beads, chunk, law, parts);
+    advance<true>(pairs, beads, chunk, law, parts, quanta);
   else
-    advance<false>(pairs, beads, chunk, law, parts);
+    advance<false>(pairs, beads, chunk, law, parts, quanta);
 }
 
 void collect(BeadTable& beads, const Chunk& chunk) {
-  const Row row;
-  double* HWY_RESTRICT sums = beads.sums.data();
+  const WholeRow row;
+  std::int64_t* HWY_RESTRICT sums = beads.sums.data();
   for (const auto& incoming : chunk.incoming)
     for (std::size_t c = 0; c < kBeadRow; c += hn::Lanes(row)) {
-      double* HWY_RESTRICT from = sums + kBeadRow * static_cast<std::size_t>(incoming.from) + c;
-      double* HWY_RESTRICT to = sums + kBeadRow * static_cast<std::size_t>(incoming.to) + c;
+      std::int64_t* HWY_RESTRICT from = sums + kBeadRow * static_cast<std::size_t>(incoming.from) + c;
+      std::int64_t* HWY_RESTRICT to = sums + kBeadRow * static_cast<std::size_t>(incoming.to) + c;
       hn::Store(hn::Add(hn::Load(row, to), hn::Load(row, from)), row, to);
       hn::Store(hn::Zero(row), row, from);
     }
@@ -268,6 +290,7 @@ void collect(BeadTable& beads, const Chunk& chunk) {
 void MoveBeads(BeadTable& beads, Chunk& chunk, double dt) {
   collect(beads, chunk);
   const Row row;
+  const WholeRow whole;
   const hn::Rebind<float, Row> listed_row;
   HWY_ALIGN float farthest[4] = {0.0F, 0.0F, 0.0F, 0.0F};
   const auto step = hn::Set(row, dt);
@@ -279,17 +302,17 @@ void MoveBeads(BeadTable& beads, Chunk& chunk, double dt) {
     for (std::size_t k = chunk.first_bead; k < chunk.last_bead; ++k) {
       double* HWY_RESTRICT bead = beads.motion.data() + kBeadRow * k;
       double* HWY_RESTRICT turning = beads.spin.data() + kBeadRow * k;
-      double* HWY_RESTRICT sums = beads.sums.data() + kBeadRow * k;
-      const auto velocity =
-          hn::MulAdd(hn::Set(row, bead[7]), hn::Load(row, sums + c), hn::Load(row, bead + 4 + c));
-      const auto spin =
-          hn::MulAdd(hn::Set(row, turning[4]), hn::Load(row, sums + 4 + c), hn::Load(row, turning + c));
+      std::int64_t* HWY_RESTRICT sums = beads.sums.data() + kBeadRow * k;
+      const auto force = from_48_bits(row, hn::Load(whole, sums + c)),
+                 torque = from_48_bits(row, hn::Load(whole, sums + 4 + c));
+      const auto velocity = hn::MulAdd(hn::Set(row, bead[7]), force, hn::Load(row, bead + 4 + c));
+      const auto spin = hn::MulAdd(hn::Set(row, turning[4]), torque, hn::Load(row, turning + c));
       const auto position = hn::MulAdd(moving, velocity, hn::Load(row, bead + c));
       hn::Store(position, row, bead + c);
       hn::Store(velocity, row, bead + 4 + c);
       hn::Store(spin, row, turning + c);
-      hn::Store(hn::Zero(row), row, sums + c);
-      hn::Store(hn::Zero(row), row, sums + 4 + c);
+      hn::Store(hn::Zero(whole), whole, sums + c);
+      hn::Store(hn::Zero(whole), whole, sums + 4 + c);
       const float* HWY_RESTRICT listed = beads.listed_rows.data() + 4 * k;
       const auto moved = hn::Sub(hn::DemoteTo(listed_row, position), hn::Load(listed_row, listed + c));
       reach = hn::Max(reach, hn::Abs(hn::Mul(moved, hn::Set(listed_row, listed[3]))));
@@ -312,8 +335,8 @@ HWY_EXPORT(MoveBeads);
 }  // namespace
 
 void advance_pairs(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<double>& law,
-                   LawParts parts) {
-  HWY_DYNAMIC_DISPATCH(AdvancePairs)(pairs, beads, chunk, law, parts);
+                   LawParts parts, const Quanta& quanta) {
+  HWY_DYNAMIC_DISPATCH(AdvancePairs)(pairs, beads, chunk, law, parts, quanta);
 }
 
 void move_beads(BeadTable& beads, Chunk& chunk, double dt) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dem_core/law/law_parameters.h"
+#include "dem_core/step/quanta.h"
 #include "dem_core/step/step_tables.h"
 
 namespace pendular::dem_core {
@@ -13,7 +14,7 @@ namespace pendular::dem_core {
 
 /// Advances the pairs of a chunk: springs, losses, breaks; adds their forces to the sums.
 void advance_pairs(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<double>& law,
-                   LawParts parts);
+                   LawParts parts, const Quanta& quanta);
 
 /// Collects the sums of a chunk's beads, clears them, and moves the beads: leapfrog.
 void move_beads(BeadTable& beads, Chunk& chunk, double dt);

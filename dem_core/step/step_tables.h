@@ -54,12 +54,12 @@ inline Vec3 get(const double* row) {
 /// Beads as the kernels read them.
 struct BeadTable {
   std::size_t size = 0;
-  AlignedVector<double> motion;      ///< x y z R | vx vy vz dt/m
-  AlignedVector<double> spin;        ///< ωx ωy ωz R | dt/I and three of no meaning
+  AlignedVector<double> motion;      ///< x y z R | vx vy vz dt/m × quantum of forces
+  AlignedVector<double> spin;        ///< ωx ωy ωz R | dt/I × quantum of torques, and three more
   AlignedVector<float> listed_rows;  ///< x y z when the pairs were listed, 1/margin
-  /// Force and 0 | torque and 0: a row per bead, which its own chunk adds to, then those that other chunks
-  /// add to.
-  AlignedVector<double> sums;
+  /// Force and 0 | torque and 0, in quanta: a row per bead, which its own chunk adds to, then those that
+  /// other chunks add to.
+  AlignedVector<std::int64_t> sums;
 };
 
 /// Beads that are near in space, and the pairs that they own: a pair is owned by the chunk of the first of
@@ -81,8 +81,8 @@ struct Chunk {
   };
   std::vector<NearPlaten> near_platen;
 
-  // What the chunk adds to the sums over the specimen in one step.
-  double damped = 0.0, slipped = 0.0, bottom = 0.0, top = 0.0;
+  // What the chunk adds to the sums over the specimen in one step, in quanta.
+  std::int64_t damped = 0, slipped = 0, bottom = 0, top = 0;
   float farthest[3] = {0.0F, 0.0F,
                        0.0F};           ///< along each axis, largest displacement over margin since listing
   std::vector<std::uint32_t> breaking;  ///< pairs whose bond breaks: block × kBlock + place in it

@@ -14,7 +14,7 @@ constexpr float kOfMargin = 0.999F;
 
 }  // namespace
 
-Stepper::Stepper(Simulation& simulation) : simulation_(simulation) {
+Stepper::Stepper(Simulation& simulation) : simulation_(simulation), quanta_(quanta(simulation)) {
   load();
 }
 
@@ -54,11 +54,12 @@ void Stepper::step() {
 }
 
 double Stepper::kinetic_energy() const {
+  const auto& beads = simulation_.beads;
   double energy = 0.0;
   for (std::size_t row = 0; row < beads_.size; ++row) {
     const double *bead = &beads_.motion[kBeadRow * row], *spin = &beads_.spin[kBeadRow * row];
-    energy += 0.5 * simulation_.dt * get(bead + 4).squaredNorm() / bead[7];
-    energy += 0.5 * simulation_.dt * get(spin).squaredNorm() / spin[4];
+    energy += 0.5 * beads.mass[bead_of_[row]] * get(bead + 4).squaredNorm();
+    energy += 0.5 * beads.inertia[bead_of_[row]] * get(spin).squaredNorm();
   }
   return energy;
 }
@@ -118,9 +119,10 @@ void Stepper::move_share(std::size_t share) {
 
 void Stepper::advance_chunk(std::size_t c) {
   Chunk& chunk = chunks_[c];
-  chunk.damped = chunk.slipped = chunk.bottom = chunk.top = 0.0;
+  chunk.damped = chunk.slipped = chunk.bottom = chunk.top = 0;
   chunk.breaking.clear();
-  advance_pairs(pairs_, beads_, chunk, numbers(simulation_.law, simulation_.dt), parts(simulation_.law));
+  advance_pairs(pairs_, beads_, chunk, numbers(simulation_.law, simulation_.dt), parts(simulation_.law),
+                quanta_);
   press_platens(chunk);
 }
 
@@ -134,36 +136,44 @@ void Stepper::change_pair(const Chunk& chunk, std::size_t p, const Change& chang
   load_pair(chunk, p);
 }
 
-/// Breaks are taken when all beads have moved, in the order of the table.
+/// Breaks are taken when all beads have moved, in the order of the simulation's pairs.
 void Stepper::break_bonds() {
+  std::vector<PlaceOfPair> breaking;
   for (const auto& chunk : chunks_)
-    for (const std::uint32_t p : chunk.breaking)
-      change_pair(chunk, p, [](Simulation& s, Pair& pair) { break_bond(s, pair); });
+    for (const std::uint32_t p : chunk.breaking) breaking.push_back({pair_of_[p], &chunk, p});
+  std::sort(breaking.begin(), breaking.end());
+  for (const auto& [pair, chunk, p] : breaking)
+    change_pair(*chunk, p, [](Simulation& s, Pair& broken) { break_bond(s, broken); });
 }
 
-/// Calls f(chunk, place) for every bonded pair of the table.
-template <typename Function>
-void Stepper::for_bonded(const Function& f) {
+/// Of the pairs that are bonded, in the order of the simulation's.
+std::vector<Stepper::PlaceOfPair> Stepper::bonded() const {
+  std::vector<PlaceOfPair> found;
   for (const auto& chunk : chunks_)
     for (std::size_t p = chunk.first_block * kBlock; p < chunk.last_block * kBlock; ++p)
-      if (pair_of_[p] >= 0 && simulation_.pairs[pair_of_[p]].bond >= 0) f(chunk, p);
+      if (pair_of_[p] >= 0 && simulation_.pairs[pair_of_[p]].bond >= 0)
+        found.push_back({pair_of_[p], &chunk, p});
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 void Stepper::change_bonds(const BondEvolution& evolution, double elapsed) {
+  const std::vector<PlaceOfPair> places = bonded();
   if (evolution.change)
-    for_bonded([&](const Chunk& chunk, std::size_t p) {
-      change_pair(chunk, p, [&](Simulation& s, Pair& pair) { change_bond(s, pair, evolution, elapsed); });
-    });
+    for (const auto& [pair, chunk, p] : places)
+      change_pair(*chunk, p, [&](Simulation& s, Pair& one) { change_bond(s, one, evolution, elapsed); });
   if (!evolution.change_all) return;
   store();
-  std::vector<Pair*> bonded;
-  for_bonded([&](const Chunk&, std::size_t p) { bonded.push_back(&simulation_.pairs[pair_of_[p]]); });
-  std::sort(bonded.begin(), bonded.end(), [](const Pair* a, const Pair* b) { return a->bond < b->bond; });
-  change_all_bonds(simulation_, bonded, evolution, elapsed);
-  for_bonded([&](const Chunk& chunk, std::size_t p) { load_pair(chunk, p); });
+  std::vector<Pair*> all;
+  for (const auto& place : places) all.push_back(&simulation_.pairs[place.pair]);
+  std::sort(all.begin(), all.end(), [](const Pair* a, const Pair* b) { return a->bond < b->bond; });
+  change_all_bonds(simulation_, all, evolution, elapsed);
+  for (const auto& [pair, chunk, p] : places) load_pair(*chunk, p);
 }
 
 void Stepper::press_platens(Chunk& chunk) {
+  const double per_force = 1.0 / quanta_.force, per_torque = 1.0 / quanta_.torque,
+               per_energy = 1.0 / quanta_.energy;
   for (const auto& [row, bottom, top] : chunk.near_platen) {
     const BeadMotion bead = motion(row);
     const std::size_t k = bead_of_[row];
@@ -172,24 +182,30 @@ void Stepper::press_platens(Chunk& chunk) {
     };
     const PlatenForce below = bottom ? touched(simulation_.bottom) : PlatenForce{};
     const PlatenForce above = top ? touched(simulation_.top) : PlatenForce{};
-    double* sums = &beads_.sums[kBeadRow * row];
-    put(sums, get(sums) + below.force + above.force);
-    put(sums + 4, get(sums + 4) + below.torque + above.torque);
-    chunk.bottom += below.normal;
-    chunk.top += above.normal;
-    chunk.damped += below.damped + above.damped;
-    chunk.slipped += below.slipped + above.slipped;
+    std::int64_t* sums = &beads_.sums[kBeadRow * row];
+    for (const PlatenForce& action : {below, above}) {
+      for (int axis = 0; axis < 3; ++axis) {
+        add(sums[axis], in_quanta(action.force[axis], per_force));
+        add(sums[4 + axis], in_quanta(action.torque[axis], per_torque));
+      }
+      add(chunk.damped, in_quanta(action.damped, per_energy));
+      add(chunk.slipped, in_quanta(action.slipped, per_energy));
+    }
+    add(chunk.bottom, in_quanta(below.normal, per_force));
+    add(chunk.top, in_quanta(above.normal, per_force));
   }
 }
 
 void Stepper::add_up() {
-  simulation_.bottom.force = simulation_.top.force = 0.0;
+  std::int64_t bottom = 0, top = 0, damped = 0, slipped = 0;
   for (const auto& chunk : chunks_) {
-    simulation_.bottom.force += chunk.bottom;
-    simulation_.top.force += chunk.top;
-    simulation_.work.damped += chunk.damped;
-    simulation_.work.slipped += chunk.slipped;
+    add(bottom, chunk.bottom), add(top, chunk.top);
+    add(damped, chunk.damped), add(slipped, chunk.slipped);
   }
+  simulation_.bottom.force = quanta_.force * static_cast<double>(bottom);
+  simulation_.top.force = quanta_.force * static_cast<double>(top);
+  simulation_.work.damped += quanta_.energy * static_cast<double>(damped);
+  simulation_.work.slipped += quanta_.energy * static_cast<double>(slipped);
 }
 
 bool Stepper::listing_due() const {

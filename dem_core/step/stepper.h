@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "dem_core/drive/bond_evolution.h"
 #include "dem_core/simulation.h"
+#include "dem_core/step/quanta.h"
 #include "dem_core/step/step_tables.h"
 
 namespace pendular::dem_core {
@@ -15,8 +16,8 @@ namespace pendular::dem_core {
 /// the order of their place in space. Chunks of neighbouring beads and their pairs are what threads share:
 /// each thread has its own, which follow each other and so meet those of others along a plane only. In a step
 /// it first advances their pairs and adds their forces to sums of each chunk's own, then collects the sums
-/// for its beads in fixed order and moves them. So what a core has written it reads again itself, and the
-/// sums are the same for any number of threads.
+/// for its beads and moves them. So what a core has written it reads again itself. Sums are of whole numbers
+/// (Quanta): the same for any number of threads and whenever pairs are listed.
 ///
 /// The simulation's platens, sums, events and step count are always true; its beads and pairs are after
 /// store(). The tables are made anew from the simulation alone, so building a stepper anew changes no result.
@@ -66,8 +67,14 @@ class Stepper {
   void press_platens(Chunk& chunk);
   template <typename Function>
   void for_pairs(const Function& f);
-  template <typename Function>
-  void for_bonded(const Function& f);
+  /// A pair of the simulation, and where the table has it.
+  struct PlaceOfPair {
+    std::int64_t pair;
+    const Chunk* chunk;
+    std::size_t at;
+    bool operator<(const PlaceOfPair& other) const { return pair < other.pair; }
+  };
+  std::vector<PlaceOfPair> bonded() const;
   template <typename Change>
   void change_pair(const Chunk& chunk, std::size_t at, const Change& change);
   void break_bonds();
@@ -86,6 +93,7 @@ class Stepper {
   };
 
   Simulation& simulation_;
+  Quanta quanta_;
   std::vector<std::size_t> bead_of_;   ///< row of the bead table → bead
   std::vector<std::int32_t> row_of_;   ///< bead → row
   std::vector<std::int64_t> pair_of_;  ///< place in the pair table → pair, or −1: fills up

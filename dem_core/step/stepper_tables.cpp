@@ -82,8 +82,8 @@ void Stepper::load_beads() {
     put(bead + 4, beads.velocity[k]);
     put(spin, beads.spin[k]);
     bead[3] = spin[3] = beads.radius[k];
-    bead[7] = simulation_.dt / beads.mass[k];
-    spin[4] = simulation_.dt / beads.inertia[k];
+    bead[7] = simulation_.dt / beads.mass[k] * quanta_.force;
+    spin[4] = simulation_.dt / beads.inertia[k] * quanta_.torque;
     float* listed = &beads_.listed_rows[4 * row];
     for (int axis = 0; axis < 3; ++axis) listed[axis] = static_cast<float>(simulation_.listing.at[k][axis]);
     listed[3] = static_cast<float>(1.0 / simulation_.listing.margin[k]);
@@ -233,7 +233,7 @@ void Stepper::share_sums() {
       block.sum_j[at] = kBeadRow * (fills_up ? nowhere : place(block.j[at] / kBeadRow));
     }
   }
-  beads_.sums.assign(kBeadRow * static_cast<std::size_t>(next), 0.0);
+  beads_.sums.assign(kBeadRow * static_cast<std::size_t>(next), 0);
 }
 
 void Stepper::find_beads_near_platens() {

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "dem_core/simulation.h"
+
+namespace pendular::dem_core {
+
+/// Sums over pairs are sums of whole numbers of these, so that no order of adding shows in them: neither
+/// threads, nor when pairs were listed, nor which runs are advanced side by side enter the result. Powers of
+/// two.
+///
+/// Sums of forces and torques are held by 48 bits, in which kernels add them: 2^47 quanta are two diameters
+/// of overlap and more. Where motion diverges to there, they wrap around. An energy that is lost in one step
+/// may have 2^51 quanta.
+struct Quanta {
+  double force, torque, energy;  ///< N, N m, J
+};
+
+inline Quanta quanta(const Simulation& simulation) {
+  const double diameter = simulation.beads.mean_diameter(), force = simulation.law.k_glass * diameter;
+  const auto power_of_two_above = [](double value) { return std::ldexp(1.0, std::ilogb(value) + 1); };
+  return {0x1p-46 * power_of_two_above(force), 0x1p-46 * power_of_two_above(force * diameter),
+          0x1p-59 * power_of_two_above(force * diameter)};
+}
+
+/// The whole number nearest to a value over a quantum, for values within 2^51 quanta.
+inline std::int64_t in_quanta(double value, double per_quantum) {
+  constexpr double kMiddle = 0x1.8p52;  // doubles around it are whole numbers, and follow each other as their bits do
+  return std::bit_cast<std::int64_t>(value * per_quantum + kMiddle) - std::bit_cast<std::int64_t>(kMiddle);
+}
+
+inline void add(std::int64_t& sum, std::int64_t more) {
+  sum = static_cast<std::int64_t>(static_cast<std::uint64_t>(sum) + static_cast<std::uint64_t>(more));
+}
+
+}  // namespace pendular::dem_core
