@@ -26,12 +26,21 @@ inline Quanta quanta(const Simulation& simulation) {
           0x1p-59 * power_of_two_above(force * diameter)};
 }
 
-/// The whole number nearest to a value over a quantum, for values within 2^51 quanta.
-inline std::int64_t in_quanta(double value, double per_quantum) {
-  constexpr double kMiddle = 0x1.8p52;  // doubles around it are whole numbers, and follow each other as their bits do
-  return std::bit_cast<std::int64_t>(value * per_quantum + kMiddle) - std::bit_cast<std::int64_t>(kMiddle);
+/// Numbers over one quantum.
+struct PerQuantum {
+  double force, torque, energy;
+};
+inline PerQuantum per_quantum(const Quanta& one) {
+  return {1.0 / one.force, 1.0 / one.torque, 1.0 / one.energy};
 }
 
+/// The whole number nearest to a value over a quantum, for values within 2^51 quanta.
+inline std::int64_t in_quanta(double value, double per) {
+  constexpr double kMiddle = 0x1.8p52;  // doubles around it are whole numbers, and follow each other as their bits do
+  return std::bit_cast<std::int64_t>(value * per + kMiddle) - std::bit_cast<std::int64_t>(kMiddle);
+}
+
+/// Wraps around, as the kernels do.
 inline void add(std::int64_t& sum, std::int64_t more) {
   sum = static_cast<std::int64_t>(static_cast<std::uint64_t>(sum) + static_cast<std::uint64_t>(more));
 }

@@ -14,7 +14,7 @@ namespace pendular::dem_core {
 
 /// Advances the pairs of a chunk: springs, losses, breaks; adds their forces to the sums.
 void advance_pairs(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<double>& law,
-                   LawParts parts, const Quanta& quanta);
+                   LawParts parts, const PerQuantum& per);
 
 /// Collects the sums of a chunk's beads, clears them, and moves the beads: leapfrog.
 void move_beads(BeadTable& beads, Chunk& chunk, double dt);

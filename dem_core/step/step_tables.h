@@ -16,12 +16,17 @@ constexpr std::size_t kBlock = 8;
 template <typename T>
 using BlockOf = T[kBlock];
 
+/// What eight pairs have of their own and remember.
+struct alignas(64) PairColumns {
+  BlockOf<float> kn, kt, break_limit, closing;
+  BlockOf<double> rest, slip_x, slip_y, slip_z;
+};
+
 /// Eight pairs. Where a group has fewer left, pairs that never act fill the block up.
 struct alignas(64) PairBlock {
   BlockOf<std::uint32_t> i, j;          ///< where their beads' rows begin in BeadTable::motion and spin
   BlockOf<std::uint32_t> sum_i, sum_j;  ///< where the rows they add to begin in BeadTable::sums
-  BlockOf<float> kn, kt, break_limit, closing;
-  BlockOf<double> rest, slip_x, slip_y, slip_z;
+  PairColumns columns;
 };
 
 /// What the glass of eight pairs adds.
@@ -32,6 +37,11 @@ struct alignas(64) ContactBlock {
 /// What the bending of eight bonds adds.
 struct alignas(64) BendBlock {
   BlockOf<double> k_bend, k_twist, turn_x, turn_y, turn_z;
+};
+
+/// Which platens a bead may touch before the next listing.
+struct NearPlatens {
+  bool bottom, top;
 };
 
 struct PairTable {
@@ -74,10 +84,9 @@ struct Chunk {
     std::uint32_t from, to;
   };
   std::vector<Incoming> incoming;
-  /// A bead that platens may touch before the next listing, and which.
   struct NearPlaten {
     std::size_t row;
-    bool bottom, top;
+    NearPlatens near;
   };
   std::vector<NearPlaten> near_platen;
 

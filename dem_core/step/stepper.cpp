@@ -4,16 +4,11 @@
 #include <cmath>
 
 #include "dem_core/step/flush_denormals.h"
+#include "dem_core/step/listed.h"
+#include "dem_core/step/press.h"
 #include "dem_core/step/step_kernels.h"
 
 namespace pendular::dem_core {
-namespace {
-
-// Pairs are listed anew where a bead has used this share of its margin: displacements are floats.
-constexpr float kOfMargin = 0.999F;
-
-}  // namespace
-
 Stepper::Stepper(Simulation& simulation) : simulation_(simulation), quanta_(quanta(simulation)) {
   load();
 }
@@ -122,7 +117,7 @@ void Stepper::advance_chunk(std::size_t c) {
   chunk.damped = chunk.slipped = chunk.bottom = chunk.top = 0;
   chunk.breaking.clear();
   advance_pairs(pairs_, beads_, chunk, numbers(simulation_.law, simulation_.dt), parts(simulation_.law),
-                quanta_);
+                per_quantum(quanta_));
   press_platens(chunk);
 }
 
@@ -172,27 +167,14 @@ void Stepper::change_bonds(const BondEvolution& evolution, double elapsed) {
 }
 
 void Stepper::press_platens(Chunk& chunk) {
-  const double per_force = 1.0 / quanta_.force, per_torque = 1.0 / quanta_.torque,
-               per_energy = 1.0 / quanta_.energy;
-  for (const auto& [row, bottom, top] : chunk.near_platen) {
-    const BeadMotion bead = motion(row);
-    const std::size_t k = bead_of_[row];
-    const auto touched = [&](Platen& platen) {
-      return touch_platen(platen, k, bead, simulation_.law, simulation_.dt);
-    };
-    const PlatenForce below = bottom ? touched(simulation_.bottom) : PlatenForce{};
-    const PlatenForce above = top ? touched(simulation_.top) : PlatenForce{};
+  const PerQuantum per = per_quantum(quanta_);
+  for (const auto& [row, near] : chunk.near_platen) {
+    const Pressed sum = press(simulation_, bead_of_[row], motion(row), near, per);
     std::int64_t* sums = &beads_.sums[kBeadRow * row];
-    for (const PlatenForce& action : {below, above}) {
-      for (int axis = 0; axis < 3; ++axis) {
-        add(sums[axis], in_quanta(action.force[axis], per_force));
-        add(sums[4 + axis], in_quanta(action.torque[axis], per_torque));
-      }
-      add(chunk.damped, in_quanta(action.damped, per_energy));
-      add(chunk.slipped, in_quanta(action.slipped, per_energy));
-    }
-    add(chunk.bottom, in_quanta(below.normal, per_force));
-    add(chunk.top, in_quanta(above.normal, per_force));
+    for (int axis = 0; axis < 3; ++axis)
+      add(sums[axis], sum.force[axis]), add(sums[4 + axis], sum.torque[axis]);
+    add(chunk.bottom, sum.bottom), add(chunk.top, sum.top);
+    add(chunk.damped, sum.damped), add(chunk.slipped, sum.slipped);
   }
 }
 
@@ -212,10 +194,7 @@ bool Stepper::listing_due() const {
   float farthest[3] = {0.0F, 0.0F, 0.0F};
   for (const auto& chunk : chunks_)
     for (int axis = 0; axis < 3; ++axis) farthest[axis] = std::max(farthest[axis], chunk.farthest[axis]);
-  if (std::hypot(farthest[0], farthest[1], farthest[2]) > kOfMargin) return true;
-  const Listing& listing = simulation_.listing;
-  return std::max(std::fabs(simulation_.bottom.z - listing.bottom_at),
-                  std::fabs(simulation_.top.z - listing.top_at)) > listing.platen_margin;
+  return dem_core::listing_due(simulation_, farthest);
 }
 
 }  // namespace pendular::dem_core

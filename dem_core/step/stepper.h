@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "dem_core/drive/bond_evolution.h"
 #include "dem_core/simulation.h"
 #include "dem_core/step/quanta.h"
 #include "dem_core/step/step_tables.h"
+#include "dem_core/step/stepping.h"
 
 namespace pendular::dem_core {
 
@@ -21,19 +21,15 @@ namespace pendular::dem_core {
 ///
 /// The simulation's platens, sums, events and step count are always true; its beads and pairs are after
 /// store(). The tables are made anew from the simulation alone, so building a stepper anew changes no result.
-class Stepper {
+class Stepper : public Stepping {
  public:
   explicit Stepper(Simulation& simulation);
 
   /// One time step. Pairs are listed anew where a bead or platen may have moved by its margin.
   void step();
 
-  /// Lets the standing bonds change by what has become of them in a time (s). Books what that brings as
-  /// Work::given.
-  void change_bonds(const BondEvolution& evolution, double elapsed);
-
-  /// Writes beads and pairs back to the simulation.
-  void store();
+  void change_bonds(const BondEvolution& evolution, double elapsed) override;
+  void store() override;
 
   /// Reads the simulation anew, where it was changed from outside.
   void load();
@@ -52,7 +48,6 @@ class Stepper {
  private:
   void order_beads();
   void load_beads();
-  std::vector<char> touchable() const;
   void cut_chunks();
   void load_pairs();
   void load_pair(const Chunk& chunk, std::size_t at);
@@ -60,6 +55,7 @@ class Stepper {
   void find_beads_near_platens();
   void store_pair(const Chunk& chunk, std::size_t at);
   ContactBlock* contact_of(const Chunk& chunk, std::size_t at);
+  BendBlock* bend_of(std::size_t at);
   void share_chunks();
   void advance_share(std::size_t share);
   void move_share(std::size_t share);

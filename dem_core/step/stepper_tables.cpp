@@ -3,34 +3,16 @@
 #include <utility>
 
 #include "base/buckets.h"
+#include "dem_core/step/listed.h"
 #include "dem_core/step/stepper.h"
 
 namespace pendular::dem_core {
 namespace {
 
-constexpr std::size_t kBeadsPerChunk = 256, kPairsPerTask = 2048;
+constexpr std::size_t kBeadsPerChunk = 256;
 
 std::size_t filled_up(std::size_t size) {
   return (size + kBlock - 1) / kBlock * kBlock;
-}
-
-/// Every third bit of the result, from bit 0 up, is one of the 21 of `cell`.
-std::uint64_t spread_bits(std::uint64_t cell) {
-  std::uint64_t bits = cell & 0x1fffff;
-  bits = (bits | bits << 32) & 0x001f00000000ffff;
-  bits = (bits | bits << 16) & 0x001f0000ff0000ff;
-  bits = (bits | bits << 8) & 0x100f00f00f00f00f;
-  bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
-  return (bits | bits << 2) & 0x1249249249249249;
-}
-
-/// Place on a curve that keeps neighbours in space close (Morton's order): the share of the specimen's extent
-/// along each axis, so that half of the curve is half of the specimen, cut through by a plane.
-std::uint64_t place_on_curve(const Vec3& share) {
-  std::uint64_t place = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    place |= spread_bits(static_cast<std::uint64_t>(share[axis] * 0x1fffff)) << axis;
-  return place;
 }
 
 /// Appends full blocks of pairs to the table so that pairs that follow each other in their order, and share a
@@ -52,18 +34,10 @@ void append_apart(std::span<const std::size_t> ordered, std::vector<std::int64_t
 }  // namespace
 
 void Stepper::order_beads() {
-  const auto& at = simulation_.listing.at;
-  Vec3 low = at.front(), high = at.front();
-  for (const auto& x : at) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  const Vec3 extent = (high - low).cwiseMax(simulation_.beads.radius.front());
-  std::vector<std::pair<std::uint64_t, std::size_t>> place(at.size());
-  for (std::size_t k = 0; k < at.size(); ++k)
-    place[k] = {place_on_curve((at[k] - low).cwiseQuotient(extent)), k};
-  std::sort(place.begin(), place.end());
-  bead_of_.resize(at.size());
-  for (std::size_t row = 0; row < at.size(); ++row) bead_of_[row] = place[row].second;
-  row_of_.resize(at.size());
-  for (std::size_t row = 0; row < at.size(); ++row) row_of_[bead_of_[row]] = static_cast<std::int32_t>(row);
+  bead_of_ = beads_in_space(simulation_);
+  row_of_.resize(bead_of_.size());
+  for (std::size_t row = 0; row < bead_of_.size(); ++row)
+    row_of_[bead_of_[row]] = static_cast<std::int32_t>(row);
 }
 
 void Stepper::load_beads() {
@@ -90,30 +64,12 @@ void Stepper::load_beads() {
   }
 }
 
-/// Whether the glass of pairs may touch before the next listing.
-std::vector<char> Stepper::touchable() const {
-  const auto& [at, margin, bottom_at, top_at, platen_margin] = simulation_.listing;
-  const auto& radius = simulation_.beads.radius;
-  const auto& pairs = simulation_.pairs;
-  // With one spring the contact's part of the law is in every pair.
-  std::vector<char> found(pairs.size(), 1);
-  if (simulation_.law.one_spring) return found;
-  for_blocks(pairs.size(), kPairsPerTask, [&](std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p) {
-      const int i = pairs[p].i, j = pairs[p].j;
-      const double listed_gap = (at[i] - at[j]).norm() - radius[i] - radius[j];
-      found[p] = listed_gap - pairs[p].properties.touch <= margin[i] + margin[j];
-    }
-  });
-  return found;
-}
-
 /// Cuts the rows of beads into chunks and gives each pair to the chunk of its first row. A chunk's pairs are
 /// in the order of their first rows, those that cannot touch before those that may.
 void Stepper::cut_chunks() {
   const auto& pairs = simulation_.pairs;
   const std::size_t chunks = (beads_.size + kBeadsPerChunk - 1) / kBeadsPerChunk;
-  const std::vector<char> may_touch = touchable();
+  const std::vector<char> may_touch = touchable(simulation_);
   std::vector<std::size_t> place(pairs.size());
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const auto row = static_cast<std::size_t>(std::min(row_of_[pairs[p].i], row_of_[pairs[p].j]));
@@ -169,43 +125,22 @@ ContactBlock* Stepper::contact_of(const Chunk& chunk, std::size_t p) {
   return b < chunk.touchable ? nullptr : &pairs_.contacts[chunk.first_contact + b - chunk.touchable];
 }
 
+/// Its bend block, or none.
+BendBlock* Stepper::bend_of(std::size_t p) {
+  return pairs_.bends.empty() ? nullptr : &pairs_.bends[p / kBlock];
+}
+
 void Stepper::load_pair(const Chunk& chunk, std::size_t p) {
   const Pair& pair = simulation_.pairs[pair_of_[p]];
-  const PairProperties& own = pair.properties;
-  const PairHistory& history = pair.history;
   const std::size_t at = p % kBlock;
   PairBlock& block = pairs_.blocks[p / kBlock];
   block.i[at] = kBeadRow * row_of_[pair.i], block.j[at] = kBeadRow * row_of_[pair.j];
-  block.rest[at] = own.rest;
-  block.kn[at] = static_cast<float>(own.kn), block.kt[at] = static_cast<float>(own.kt);
-  block.break_limit[at] = static_cast<float>(own.break_limit);
-  block.closing[at] = static_cast<float>(history.closing);
-  block.slip_x[at] = history.bond_slip.x, block.slip_y[at] = history.bond_slip.y;
-  block.slip_z[at] = history.bond_slip.z;
-  if (ContactBlock* contact = contact_of(chunk, p)) {
-    contact->touch[at] = own.touch;
-    contact->slip_x[at] = history.contact_slip.x, contact->slip_y[at] = history.contact_slip.y;
-    contact->slip_z[at] = history.contact_slip.z;
-  }
-  if (simulation_.law.bending) {
-    BendBlock& bend = pairs_.bends[p / kBlock];
-    bend.k_bend[at] = own.k_bend, bend.k_twist[at] = own.k_twist;
-    bend.turn_x[at] = history.turn.x, bend.turn_y[at] = history.turn.y, bend.turn_z[at] = history.turn.z;
-  }
+  put_pair(pair, {&block.columns, contact_of(chunk, p), bend_of(p)}, at);
 }
 
 void Stepper::store_pair(const Chunk& chunk, std::size_t p) {
-  PairHistory& history = simulation_.pairs[pair_of_[p]].history;
-  const std::size_t at = p % kBlock;
-  const PairBlock& block = pairs_.blocks[p / kBlock];
-  history.bond_slip = {block.slip_x[at], block.slip_y[at], block.slip_z[at]};
-  history.closing = block.closing[at];
-  if (const ContactBlock* contact = contact_of(chunk, p))
-    history.contact_slip = {contact->slip_x[at], contact->slip_y[at], contact->slip_z[at]};
-  if (simulation_.law.bending) {
-    const BendBlock& bend = pairs_.bends[p / kBlock];
-    history.turn = {bend.turn_x[at], bend.turn_y[at], bend.turn_z[at]};
-  }
+  get_pair({&pairs_.blocks[p / kBlock].columns, contact_of(chunk, p), bend_of(p)}, p % kBlock,
+           simulation_.pairs[pair_of_[p]]);
 }
 
 /// A chunk adds to the sums of its own beads, and to sums of its own making for those of others.
@@ -237,15 +172,10 @@ void Stepper::share_sums() {
 }
 
 void Stepper::find_beads_near_platens() {
-  const Listing& listing = simulation_.listing;
   for (auto& chunk : chunks_)
     for (std::size_t row = chunk.first_bead; row < chunk.last_bead; ++row) {
-      const std::size_t k = bead_of_[row];
-      const double z = beads_.listed_rows[4 * row + 2];
-      const double reach = beads_.motion[kBeadRow * row + 3] + listing.margin[k] + listing.platen_margin;
-      const bool bottom = z - reach + simulation_.bottom.relief[k] <= listing.bottom_at;
-      const bool top = z + reach - simulation_.top.relief[k] >= listing.top_at;
-      if (bottom || top) chunk.near_platen.push_back({row, bottom, top});
+      const NearPlatens near = near_platens(simulation_, bead_of_[row]);
+      if (near.bottom || near.top) chunk.near_platen.push_back({row, near});
     }
 }
 

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "dem_core/simulation.h"
+#include "dem_core/step/step_tables.h"
+
+namespace pendular::dem_core {
+
+// How what a simulation lists goes into the tables of a stepper.
+
+/// Beads in an order that keeps neighbours in space close (Morton's), of which one half is half of the
+/// specimen, cut off by a plane.
+std::vector<std::size_t> beads_in_space(const Simulation& simulation);
+
+/// Of each pair, whether its glass may touch before the next listing.
+std::vector<char> touchable(const Simulation& simulation);
+
+/// The pair of two beads, i < j, or none.
+Pair* find_pair(Simulation& simulation, int i, int j);
+
+NearPlatens near_platens(const Simulation& simulation, std::size_t bead);
+
+/// Whether a bead or a platen may have moved by its margin; `farthest` is the largest displacement of a bead
+/// over its margin, along each axis.
+bool listing_due(const Simulation& simulation, const float (&farthest)[3]);
+
+/// Where a table has a pair; contact and bend may be absent.
+struct PairPlace {
+  PairColumns* columns;
+  ContactBlock* contact;
+  BendBlock* bend;
+};
+void put_pair(const Pair& pair, const PairPlace& to, std::size_t at);
+
+/// What the pair remembers.
+void get_pair(const PairPlace& from, std::size_t at, Pair& pair);
+
+}  // namespace pendular::dem_core

@@ -1,0 +1,93 @@
+#include "dem_core/step/side_by_side.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "dem_core/step/flush_denormals.h"
+#include "dem_core/step/press.h"
+#include "dem_core/step/side_by_side_kernels.h"
+
+namespace pendular::dem_core {
+
+void SideBySide::step() {
+  {
+    const FlushDenormals here;
+    totals_ = {};
+    breaking_apart_.clear(), breaking_touchable_.clear();
+    advance_side_by_side(apart_, false, beads_, law_, parts_, totals_, breaking_apart_);
+    advance_side_by_side(touchable_, true, beads_, law_, parts_, totals_, breaking_touchable_);
+    for (std::size_t run = 0; run < runs_.size(); ++run)
+      if (runs_[run]) press_platens(run);
+    move_side_by_side(beads_, bead_of_.size(), law_, totals_);
+  }
+  break_bonds();
+  for (std::size_t run = 0; run < runs_.size(); ++run)
+    if (runs_[run]) end_step(run);
+}
+
+void SideBySide::press_platens(std::size_t run) {
+  Simulation& simulation = *runs_[run];
+  const PerQuantum per = per_quantum(quanta_[run]);
+  for (const auto& [row, near] : near_platen_) {
+    if (!near[run].bottom && !near[run].top) continue;
+    const Pressed sum = press(simulation, bead_of_[row], motion(row, run), near[run], per);
+    SideSums& on = beads_.sums[row];
+    add(on.fx[run], sum.force[0]), add(on.fy[run], sum.force[1]), add(on.fz[run], sum.force[2]);
+    add(on.tx[run], sum.torque[0]), add(on.ty[run], sum.torque[1]), add(on.tz[run], sum.torque[2]);
+    add(totals_.bottom[run], sum.bottom), add(totals_.top[run], sum.top);
+    add(totals_.damped[run], sum.damped), add(totals_.slipped[run], sum.slipped);
+  }
+}
+
+/// Breaks are taken when all beads have moved, those of a run in the order of its pairs.
+void SideBySide::break_bonds() {
+  std::vector<std::tuple<std::size_t, Place>> breaking;
+  const auto note = [&](const std::vector<SideBreak>& noted, bool may_touch) {
+    const SidePairs& pairs = may_touch ? touchable_ : apart_;
+    for (const auto& [at, run] : noted)
+      breaking.push_back({run,
+                          {static_cast<int>(bead_of_[pairs.ends[at].i]),
+                           static_cast<int>(bead_of_[pairs.ends[at].j]), may_touch, at}});
+  };
+  note(breaking_apart_, false), note(breaking_touchable_, true);
+  std::sort(breaking.begin(), breaking.end());
+  for (const auto& [run, place] : breaking) {
+    Simulation& simulation = *runs_[run];
+    Pair& pair = *find_pair(simulation, place.i, place.j);
+    for (const int bead : {place.i, place.j})
+      simulation.beads.position[bead] = motion(row_of_[bead], run).position;
+    get_pair(in_table(place), run, pair);
+    break_bond(simulation, pair);
+    put_pair(pair, in_table(place), run);
+  }
+}
+
+void SideBySide::end_step(std::size_t run) {
+  Simulation& simulation = *runs_[run];
+  simulation.bottom.force = quanta_[run].force * static_cast<double>(totals_.bottom[run]);
+  simulation.top.force = quanta_[run].force * static_cast<double>(totals_.top[run]);
+  simulation.work.damped += quanta_[run].energy * static_cast<double>(totals_.damped[run]);
+  simulation.work.slipped += quanta_[run].energy * static_cast<double>(totals_.slipped[run]);
+  advance_platens(simulation);
+  const float farthest[3] = {totals_.farthest_x[run], totals_.farthest_y[run], totals_.farthest_z[run]};
+  if (listing_due(simulation, farthest)) list_anew(run);
+}
+
+void SideBySide::change_bonds(std::size_t run, const BondEvolution& evolution, double elapsed) {
+  store(run);
+  Simulation& simulation = *runs_[run];
+  std::vector<Pair*> bonded;
+  for (Pair& pair : simulation.pairs)
+    if (pair.bond >= 0) bonded.push_back(&pair);
+  if (evolution.change)
+    for (Pair* pair : bonded) change_bond(simulation, *pair, evolution, elapsed);
+  if (evolution.change_all) {
+    std::sort(bonded.begin(), bonded.end(), [](const Pair* a, const Pair* b) { return a->bond < b->bond; });
+    change_all_bonds(simulation, bonded, evolution, elapsed);
+  }
+  for_pairs(run, [&](const Pair& pair, const Place& place) {
+    if (pair.bond >= 0) put_pair(pair, in_table(place), run);
+  });
+}
+
+}  // namespace pendular::dem_core

@@ -1,0 +1,188 @@
+#include "dem_core/step/side_by_side_kernels.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "dem_core/step/side_by_side_kernels.cpp"
+#include "hwy/foreach_target.h"
+//
+#include "hwy/highway.h"
+//
+#include "dem_core/step/pair_batch-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pendular::dem_core {
+namespace HWY_NAMESPACE {
+namespace {
+
+constexpr std::size_t kLanes = HWY_LANES(double), kParts = kRuns / kLanes;
+
+Constants constants(const SideLaw& law, std::size_t lane, LawParts parts) {
+  return {{load(law.k_glass + lane), load(law.kt_glass + lane), load(law.friction + lane),
+           load(law.damping + lane), load(law.dt + lane), load(law.half_dt + lane),
+           load(law.half_damping_dt + lane)},
+          parts,
+          {load(law.per_force + lane), load(law.per_torque + lane), load(law.per_energy + lane)}};
+}
+
+HWY_INLINE Triple<Lanes> load(const double* x, const double* y, const double* z, std::size_t lane) {
+  return {load(x + lane), load(y + lane), load(z + lane)};
+}
+
+template <bool bending>
+HWY_INLINE void read_motion(const SideBead& i, const SideBead& j, std::size_t lane,
+                            const LawNumbers<Lanes>& law, Batch& batch, std::size_t at) {
+  const Lanes radius_i = load(i.radius + lane), radius_j = load(j.radius + lane);
+  const Triple<Lanes> spin_i = load(i.wx, i.wy, i.wz, lane), spin_j = load(j.wx, j.wy, j.wz, lane);
+  PairMotion<Lanes> motion;
+  motion.apart = load(i.x, i.y, i.z, lane) - load(j.x, j.y, j.z, lane);
+  motion.velocity = load(i.vx, i.vy, i.vz, lane) - load(j.vx, j.vy, j.vz, lane);
+  motion.rolling = mul_add(radius_i, spin_i, radius_j * spin_j);
+  motion.spin = spin_i + spin_j;
+  motion.radii = radius_i + radius_j;
+  if (bending) motion.turning = spin_i - spin_j;
+  put_motion<bending>(motion, radius_i - radius_j, law, batch, at);
+}
+
+HWY_INLINE void add(WholeLanes more, std::int64_t* to) {
+  const WholeLanes::Tag tag;
+  hn::Store(hn::Add(hn::Load(tag, to), more.v), tag, to);
+}
+HWY_INLINE void take(WholeLanes less, std::int64_t* from) {
+  const WholeLanes::Tag tag;
+  hn::Store(hn::Sub(hn::Load(tag, from), less.v), tag, from);
+}
+
+template <bool bending>
+HWY_INLINE void add_to_beads(SideSums& i, SideSums& j, std::size_t lane, const Batch& batch, std::size_t at,
+                             const LanesPerQuantum& per) {
+  Shares shares;
+  put_shares<bending>(batch, at, per, shares);
+  add(shares.force.x, i.fx + lane), add(shares.force.y, i.fy + lane), add(shares.force.z, i.fz + lane);
+  add(shares.on_i.x, i.tx + lane), add(shares.on_i.y, i.ty + lane), add(shares.on_i.z, i.tz + lane);
+  take(shares.force.x, j.fx + lane), take(shares.force.y, j.fy + lane), take(shares.force.z, j.fz + lane);
+  take(shares.from_j.x, j.tx + lane), take(shares.from_j.y, j.ty + lane);
+  take(shares.from_j.z, j.tz + lane);
+}
+
+/// Appends the runs whose lane is set; `first` is the run of the first lane.
+void note_breaks(LaneMask breaking, std::size_t pair, std::size_t first, std::vector<SideBreak>& noted) {
+  HWY_ALIGN double flags[kRuns];
+  const Lanes::Tag tag;
+  hn::Store(hn::IfThenElseZero(breaking.m, hn::Set(tag, 1.0)), tag, flags);
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    if (flags[lane] != 0.0) noted.push_back({pair, first + lane});
+}
+
+template <bool may_touch, bool bending>
+void advance(SidePairs& pairs, SideBeads& beads, const SideLaw& law, LawParts parts, SideTotals& totals,
+             std::vector<SideBreak>& breaking) {
+  const WholeLanes::Tag tag;
+  Constants given[kParts];
+  Losses losses[kParts];
+  for (std::size_t part = 0; part < kParts; ++part) {
+    given[part] = constants(law, part * kLanes, parts);
+    losses[part] = {{hn::Zero(tag)}, {hn::Zero(tag)}};
+  }
+  const SidePairs::Ends* const ends = pairs.ends.data();
+  PairColumns* const columns = pairs.columns.data();
+  ContactBlock* const contacts = pairs.contacts.data();
+  BendBlock* const bends = pairs.bends.data();
+  SideBead* const motion = beads.motion.data();
+  SideSums* const sums = beads.sums.data();
+  Batch batch;
+  for (std::size_t begin = 0, last = pairs.ends.size(); begin < last; begin += kBatch) {
+    const std::size_t end = std::min(begin + kBatch, last);
+    const auto for_lanes = [&](const auto& body) {
+      for (std::size_t p = begin, at = 0; p < end; ++p)
+        for (std::size_t part = 0; part < kParts; ++part, at += kLanes) body(p, part, at);
+    };
+    for_lanes([&](std::size_t p, std::size_t part, std::size_t at) {
+      read_motion<bending>(motion[ends[p].i], motion[ends[p].j], part * kLanes, given[part].law, batch, at);
+    });
+    for_lanes([&](std::size_t p, std::size_t part, std::size_t at) {
+      const LaneMask broken = advance_lanes<may_touch, bending>(
+          columns[p], may_touch ? contacts + p : nullptr, bending ? bends + p : nullptr, part * kLanes,
+          given[part], batch, at, losses[part]);
+      if (any(broken)) note_breaks(broken, p, part * kLanes, breaking);
+    });
+    for_lanes([&](std::size_t p, std::size_t part, std::size_t at) {
+      add_to_beads<bending>(sums[ends[p].i], sums[ends[p].j], part * kLanes, batch, at, given[part].per);
+    });
+  }
+  for (std::size_t part = 0; part < kParts; ++part) {
+    add(losses[part].damped, totals.damped + part * kLanes);
+    add(losses[part].slipped, totals.slipped + part * kLanes);
+  }
+}
+
+void AdvanceSideBySide(SidePairs& pairs, bool may_touch, SideBeads& beads, const SideLaw& law, LawParts parts,
+                       SideTotals& totals, std::vector<SideBreak>& breaking) {
+  const auto of = may_touch ? (parts.bending ? advance<true, true> : advance<true, false>)
+                            : (parts.bending ? advance<false, true> : advance<false, false>);
+  of(pairs, beads, law, parts, totals, breaking);
+}
+
+/// Adds what one number of a bead's motion changes by in a step, and clears the sum that it follows from.
+HWY_INLINE Lanes changed(Lanes per, std::int64_t* sum, const double* before) {
+  const WholeLanes::Tag tag;
+  const Lanes total = {from_48_bits(Lanes::Tag(), hn::Load(tag, sum))};
+  hn::Store(hn::Zero(tag), tag, sum);
+  return mul_add(per, total, load(before));
+}
+
+/// How far a bead has moved along one axis since its listing, over its margin.
+HWY_INLINE void reach(Lanes place, const float* listed, hn::Vec<Floats> per_margin, float* farthest) {
+  const Floats floats;
+  const auto moved = hn::Sub(hn::DemoteTo(floats, place.v), hn::Load(floats, listed));
+  hn::Store(hn::Max(hn::Load(floats, farthest), hn::Abs(hn::Mul(moved, per_margin))), floats, farthest);
+}
+
+void MoveSideBySide(SideBeads& beads, std::size_t size, const SideLaw& law, SideTotals& totals) {
+  for (std::size_t k = 0; k < size; ++k)
+    for (std::size_t lane = 0; lane < kRuns; lane += kLanes) {
+      SideBead& bead = beads.motion[k];
+      SideSums& sums = beads.sums[k];
+      const SideInertia& inertia = beads.inertia[k];
+      const Lanes dt = load(law.dt + lane), per_mass = load(inertia.per_mass + lane),
+                  per_inertia = load(inertia.per_inertia + lane);
+      const auto per_margin = hn::Load(Floats(), inertia.per_margin + lane);
+      const auto move = [&](double* place, double* velocity, std::int64_t* force, const float* listed,
+                            float* farthest) {
+        const Lanes now = changed(per_mass, force + lane, velocity + lane);
+        const Lanes there = mul_add(dt, now, load(place + lane));
+        store(now, velocity + lane), store(there, place + lane);
+        reach(there, listed + lane, per_margin, farthest + lane);
+      };
+      move(bead.x, bead.vx, sums.fx, inertia.listed_x, totals.farthest_x);
+      move(bead.y, bead.vy, sums.fy, inertia.listed_y, totals.farthest_y);
+      move(bead.z, bead.vz, sums.fz, inertia.listed_z, totals.farthest_z);
+      store(changed(per_inertia, sums.tx + lane, bead.wx + lane), bead.wx + lane);
+      store(changed(per_inertia, sums.ty + lane, bead.wy + lane), bead.wy + lane);
+      store(changed(per_inertia, sums.tz + lane, bead.wz + lane), bead.wz + lane);
+    }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace pendular::dem_core
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace pendular::dem_core {
+namespace {
+HWY_EXPORT(AdvanceSideBySide);
+HWY_EXPORT(MoveSideBySide);
+}  // namespace
+
+void advance_side_by_side(SidePairs& pairs, bool may_touch, SideBeads& beads, const SideLaw& law,
+                          LawParts parts, SideTotals& totals, std::vector<SideBreak>& breaking) {
+  HWY_DYNAMIC_DISPATCH(AdvanceSideBySide)(pairs, may_touch, beads, law, parts, totals, breaking);
+}
+
+void move_side_by_side(SideBeads& beads, std::size_t size, const SideLaw& law, SideTotals& totals) {
+  HWY_DYNAMIC_DISPATCH(MoveSideBySide)(beads, size, law, totals);
+}
+
+}  // namespace pendular::dem_core
+#endif
