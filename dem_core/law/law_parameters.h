@@ -52,6 +52,39 @@ struct PairAction {
   Real damped, slipped;  ///< energy lost in the step, J
 };
 
+/// A platen as every bead meets it, SI.
+template <typename Real>
+struct PlatenNumbers {
+  Real z, velocity;        ///< of the face, along z
+  Real sign;               ///< +1: beads are above it; −1: below
+  Real k_glass, kt_glass;  ///< contact stiffness, N/m
+  Real friction, damping;  ///< μ of platens; ζ, N s/m
+  Real dt, half_damping_dt;
+};
+
+/// A bead as a platen meets it.
+template <typename Real>
+struct PlatenBead {
+  Real z, radius, relief;
+  Triple<Real> velocity, spin;
+};
+
+/// What a platen remembers of a bead.
+template <typename Real>
+struct PlatenMemory {
+  Real slip_x, slip_y;  ///< tangential displacement since touch, m
+  Real closing;         ///< speed that damping opposed in the last step, m/s
+};
+
+/// What a platen does to a bead in one step.
+template <typename Real>
+struct PlatenAction {
+  Triple<Real> force;        ///< on the bead
+  Real torque_x, torque_y;   ///< on the bead
+  Real normal;               ///< on the platen
+  Real damped, slipped;      ///< energy lost in the step, J
+};
+
 /// What the law of a specimen is made of.
 struct LawParameters {
   double k_glass = 0.0, kt_glass = 0.0;

@@ -24,6 +24,8 @@ struct Platen {
   }
 };
 
+PlatenNumbers<double> platen_numbers(const Platen& platen, const LawParameters& law, double dt);
+
 /// What a platen does to one bead in one step.
 struct PlatenForce {
   Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  ///< on the bead

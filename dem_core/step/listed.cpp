@@ -121,4 +121,15 @@ void get_pair(const PairPlace& from, std::size_t at, Pair& pair) {
   if (const BendBlock* bend = from.bend) history.turn = {bend->turn_x[at], bend->turn_y[at], bend->turn_z[at]};
 }
 
+void put_bead(const Platen& platen, std::size_t bead, PlatenColumns& to, std::size_t at) {
+  to.relief[at] = platen.relief[bead];
+  to.slip_x[at] = platen.slip[bead].x(), to.slip_y[at] = platen.slip[bead].y();
+  to.closing[at] = platen.closing[bead];
+}
+
+void get_bead(const PlatenColumns& from, std::size_t at, std::size_t bead, Platen& platen) {
+  platen.slip[bead] = {from.slip_x[at], from.slip_y[at], 0.0};
+  platen.closing[bead] = from.closing[at];
+}
+
 }  // namespace pendular::dem_core

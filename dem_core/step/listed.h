@@ -20,6 +20,10 @@ std::vector<char> touchable(const Simulation& simulation);
 /// The pair of two beads, i < j, or none.
 Pair* find_pair(Simulation& simulation, int i, int j);
 
+/// Which platens a bead may touch before the next listing.
+struct NearPlatens {
+  bool bottom, top;
+};
 NearPlatens near_platens(const Simulation& simulation, std::size_t bead);
 
 /// Whether a bead or a platen may have moved by its margin; `farthest` is the largest displacement of a bead
@@ -36,5 +40,10 @@ void put_pair(const Pair& pair, const PairPlace& to, std::size_t at);
 
 /// What the pair remembers.
 void get_pair(const PairPlace& from, std::size_t at, Pair& pair);
+
+void put_bead(const Platen& platen, std::size_t bead, PlatenColumns& to, std::size_t at);
+
+/// What the platen remembers of the bead.
+void get_bead(const PlatenColumns& from, std::size_t at, std::size_t bead, Platen& platen);
 
 }  // namespace pendular::dem_core

@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "dem_core/step/flush_denormals.h"
-#include "dem_core/step/press.h"
+#include "dem_core/step/platen_kernels.h"
 #include "dem_core/step/side_by_side_kernels.h"
 
 namespace pendular::dem_core {
@@ -16,8 +16,7 @@ void SideBySide::step() {
     breaking_apart_.clear(), breaking_touchable_.clear();
     advance_side_by_side(apart_, false, beads_, law_, parts_, totals_, breaking_apart_);
     advance_side_by_side(touchable_, true, beads_, law_, parts_, totals_, breaking_touchable_);
-    for (std::size_t run = 0; run < runs_.size(); ++run)
-      if (runs_[run]) press_platens(run);
+    press_platens();
     move_side_by_side(beads_, bead_of_.size(), law_, totals_);
   }
   break_bonds();
@@ -25,18 +24,15 @@ void SideBySide::step() {
     if (runs_[run]) end_step(run);
 }
 
-void SideBySide::press_platens(std::size_t run) {
-  Simulation& simulation = *runs_[run];
-  const PerQuantum per = per_quantum(quanta_[run]);
-  for (const auto& [row, near] : near_platen_) {
-    if (!near[run].bottom && !near[run].top) continue;
-    const Pressed sum = press(simulation, bead_of_[row], motion(row, run), near[run], per);
-    SideSums& on = beads_.sums[row];
-    add(on.fx[run], sum.force[0]), add(on.fy[run], sum.force[1]), add(on.fz[run], sum.force[2]);
-    add(on.tx[run], sum.torque[0]), add(on.ty[run], sum.torque[1]), add(on.tz[run], sum.torque[2]);
-    add(totals_.bottom[run], sum.bottom), add(totals_.top[run], sum.top);
-    add(totals_.damped[run], sum.damped), add(totals_.slipped[run], sum.slipped);
+void SideBySide::press_platens() {
+  for (std::size_t run = 0; run < runs_.size(); ++run) {
+    if (!runs_[run]) continue;
+    bottom_.numbers.z[run] = runs_[run]->bottom.z, top_.numbers.z[run] = runs_[run]->top.z;
+    bottom_.numbers.velocity[run] = runs_[run]->bottom.velocity;
+    top_.numbers.velocity[run] = runs_[run]->top.velocity;
   }
+  press_side_by_side(bottom_, beads_, law_, totals_.bottom, totals_);
+  press_side_by_side(top_, beads_, law_, totals_.top, totals_);
 }
 
 /// Breaks are taken when all beads have moved, those of a run in the order of its pairs.

@@ -59,14 +59,11 @@ class SideBySide {
     std::size_t at;
     bool operator<(const Place& other) const { return i != other.i ? i < other.i : j < other.j; }
   };
-  struct NearPlaten {
-    std::size_t row;
-    NearPlatens near[kRuns];
-  };
 
   void load();
   void load_beads(std::size_t run, const Simulation& from);
   void load_law(std::size_t run);
+  void load_platen(std::size_t run, const Platen& from, SidePlaten& platen);
   void load_listing(std::size_t run);
   void load_places();
   void find_beads_near_platens();
@@ -85,7 +82,7 @@ class SideBySide {
   }
   void store_beads(std::size_t run);
   BeadMotion motion(std::size_t row, std::size_t run) const;
-  void press_platens(std::size_t run);
+  void press_platens();
   void break_bonds();
   void end_step(std::size_t run);
 
@@ -100,7 +97,7 @@ class SideBySide {
   SidePairs apart_, touchable_;
   SideLaw law_ = {};
   SideTotals totals_ = {};
-  std::vector<NearPlaten> near_platen_;
+  SidePlaten bottom_, top_;
   std::vector<SideBreak> breaking_apart_, breaking_touchable_;
 };
 

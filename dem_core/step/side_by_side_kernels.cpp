@@ -1,14 +1,12 @@
 #include "dem_core/step/side_by_side_kernels.h"
 
-#include <algorithm>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "dem_core/step/side_by_side_kernels.cpp"
 #include "hwy/foreach_target.h"
 //
 #include "hwy/highway.h"
 //
-#include "dem_core/step/pair_batch-inl.h"
+#include "dem_core/step/pair_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pendular::dem_core {
@@ -30,18 +28,15 @@ HWY_INLINE Triple<Lanes> load(const double* x, const double* y, const double* z,
 }
 
 template <bool bending>
-HWY_INLINE void read_motion(const SideBead& i, const SideBead& j, std::size_t lane,
-                            const LawNumbers<Lanes>& law, Batch& batch, std::size_t at) {
+HWY_INLINE void put_motion(const SideBead& i, const SideBead& j, std::size_t lane, PairMotion<Lanes>& motion) {
   const Lanes radius_i = load(i.radius + lane), radius_j = load(j.radius + lane);
   const Triple<Lanes> spin_i = load(i.wx, i.wy, i.wz, lane), spin_j = load(j.wx, j.wy, j.wz, lane);
-  PairMotion<Lanes> motion;
   motion.apart = load(i.x, i.y, i.z, lane) - load(j.x, j.y, j.z, lane);
   motion.velocity = load(i.vx, i.vy, i.vz, lane) - load(j.vx, j.vy, j.vz, lane);
   motion.rolling = mul_add(radius_i, spin_i, radius_j * spin_j);
   motion.spin = spin_i + spin_j;
   motion.radii = radius_i + radius_j;
   if (bending) motion.turning = spin_i - spin_j;
-  put_motion<bending>(motion, radius_i - radius_j, law, batch, at);
 }
 
 HWY_INLINE void add(WholeLanes more, std::int64_t* to) {
@@ -53,11 +48,7 @@ HWY_INLINE void take(WholeLanes less, std::int64_t* from) {
   hn::Store(hn::Sub(hn::Load(tag, from), less.v), tag, from);
 }
 
-template <bool bending>
-HWY_INLINE void add_to_beads(SideSums& i, SideSums& j, std::size_t lane, const Batch& batch, std::size_t at,
-                             const LanesPerQuantum& per) {
-  Shares shares;
-  put_shares<bending>(batch, at, per, shares);
+HWY_INLINE void add_to_beads(const Shares& shares, std::size_t lane, SideSums& i, SideSums& j) {
   add(shares.force.x, i.fx + lane), add(shares.force.y, i.fy + lane), add(shares.force.z, i.fz + lane);
   add(shares.on_i.x, i.tx + lane), add(shares.on_i.y, i.ty + lane), add(shares.on_i.z, i.tz + lane);
   take(shares.force.x, j.fx + lane), take(shares.force.y, j.fy + lane), take(shares.force.z, j.fz + lane);
@@ -90,26 +81,22 @@ void advance(SidePairs& pairs, SideBeads& beads, const SideLaw& law, LawParts pa
   BendBlock* const bends = pairs.bends.data();
   SideBead* const motion = beads.motion.data();
   SideSums* const sums = beads.sums.data();
-  Batch batch;
-  for (std::size_t begin = 0, last = pairs.ends.size(); begin < last; begin += kBatch) {
-    const std::size_t end = std::min(begin + kBatch, last);
-    const auto for_lanes = [&](const auto& body) {
-      for (std::size_t p = begin, at = 0; p < end; ++p)
-        for (std::size_t part = 0; part < kParts; ++part, at += kLanes) body(p, part, at);
-    };
-    for_lanes([&](std::size_t p, std::size_t part, std::size_t at) {
-      read_motion<bending>(motion[ends[p].i], motion[ends[p].j], part * kLanes, given[part].law, batch, at);
-    });
-    for_lanes([&](std::size_t p, std::size_t part, std::size_t at) {
+  for (std::size_t p = 0; p < pairs.ends.size(); ++p)
+    for (std::size_t part = 0, lane = 0; part < kParts; ++part, lane += kLanes) {
+      const SideBead &bead_i = motion[ends[p].i], &bead_j = motion[ends[p].j];
+      PairMotion<Lanes> moving;
+      put_motion<bending>(bead_i, bead_j, lane, moving);
+      const PairApproach<Lanes> seen = approach(moving, given[part].law);
+      PairAction<Lanes> action;
       const LaneMask broken = advance_lanes<may_touch, bending>(
-          columns[p], may_touch ? contacts + p : nullptr, bending ? bends + p : nullptr, part * kLanes,
-          given[part], batch, at, losses[part]);
-      if (any(broken)) note_breaks(broken, p, part * kLanes, breaking);
-    });
-    for_lanes([&](std::size_t p, std::size_t part, std::size_t at) {
-      add_to_beads<bending>(sums[ends[p].i], sums[ends[p].j], part * kLanes, batch, at, given[part].per);
-    });
-  }
+          columns[p], may_touch ? contacts + p : nullptr, bending ? bends + p : nullptr, lane, given[part],
+          seen, moving, action, losses[part]);
+      const Lanes difference = load(bead_i.radius + lane) - load(bead_j.radius + lane);
+      Shares shares;
+      put_shares<bending>(action, arms(moving.radii, difference, seen.gap), given[part].per, shares);
+      add_to_beads(shares, lane, sums[ends[p].i], sums[ends[p].j]);
+      if (any(broken)) note_breaks(broken, p, lane, breaking);
+    }
   for (std::size_t part = 0; part < kParts; ++part) {
     add(losses[part].damped, totals.damped + part * kLanes);
     add(losses[part].slipped, totals.slipped + part * kLanes);

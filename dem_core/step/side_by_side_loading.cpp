@@ -63,6 +63,10 @@ void SideBySide::load() {
   beads_.sums.assign(bead_of_.size() + 2, {});
   beads_.inertia.assign(bead_of_.size(), {});
   law_ = {};
+  for (SidePlaten* platen : {&bottom_, &top_}) {
+    platen->numbers = {};
+    platen->beads.assign(bead_of_.size(), {});
+  }
   std::fill_n(beads_.motion.back().x, kRuns, 1.0);
   // Lanes without a run hold beads that nothing moves.
   for (std::size_t run = 0; run < kRuns; ++run)
@@ -71,6 +75,7 @@ void SideBySide::load() {
     if (!runs_[run]) continue;
     load_beads(run, *runs_[run]);
     load_law(run);
+    load_platen(run, runs_[run]->bottom, bottom_), load_platen(run, runs_[run]->top, top_);
     load_listing(run);
   }
   load_places();
@@ -104,6 +109,17 @@ void SideBySide::load_law(std::size_t run) {
     beads_.inertia[row].per_mass[run] = dt / simulation.beads.mass[k] * quanta_[run].force;
     beads_.inertia[row].per_inertia[run] = dt / simulation.beads.inertia[k] * quanta_[run].torque;
   }
+}
+
+void SideBySide::load_platen(std::size_t run, const Platen& from, SidePlaten& platen) {
+  const auto [z, velocity, sign, k_glass, kt_glass, friction, damping, dt, half_damping_dt] =
+      platen_numbers(from, runs_[run]->law, runs_[run]->dt);
+  auto& to = platen.numbers;
+  to.z[run] = z, to.velocity[run] = velocity, to.sign[run] = sign;
+  to.k_glass[run] = k_glass, to.kt_glass[run] = kt_glass;
+  to.friction[run] = friction, to.damping[run] = damping;
+  to.dt[run] = dt, to.half_damping_dt[run] = half_damping_dt;
+  for (std::size_t row = 0; row < bead_of_.size(); ++row) put_bead(from, bead_of_[row], platen.beads[row], run);
 }
 
 void SideBySide::load_listing(std::size_t run) {
@@ -159,16 +175,16 @@ PairPlace SideBySide::in_table(const Place& place) {
 }
 
 void SideBySide::find_beads_near_platens() {
-  near_platen_.clear();
-  for (std::size_t row = 0; row < bead_of_.size(); ++row) {
-    NearPlaten bead = {row, {}};
-    bool any = false;
-    for (std::size_t run = 0; run < runs_.size(); ++run) {
-      if (!runs_[run]) continue;
-      bead.near[run] = near_platens(*runs_[run], bead_of_[row]);
-      any |= bead.near[run].bottom || bead.near[run].top;
+  bottom_.near.clear(), top_.near.clear();
+  for (std::uint32_t row = 0; row < bead_of_.size(); ++row) {
+    NearPlatens any = {false, false};
+    for (const Simulation* simulation : runs_) {
+      if (!simulation) continue;
+      const NearPlatens near = near_platens(*simulation, bead_of_[row]);
+      any = {any.bottom || near.bottom, any.top || near.top};
     }
-    if (any) near_platen_.push_back(bead);
+    if (any.bottom) bottom_.near.push_back(row);
+    if (any.top) top_.near.push_back(row);
   }
 }
 
@@ -227,6 +243,10 @@ void SideBySide::store_beads(std::size_t run) {
 
 void SideBySide::store(std::size_t run) {
   store_beads(run);
+  for (std::size_t row = 0; row < bead_of_.size(); ++row) {
+    get_bead(bottom_.beads[row], run, bead_of_[row], runs_[run]->bottom);
+    get_bead(top_.beads[row], run, bead_of_[row], runs_[run]->top);
+  }
   for_pairs(run, [&](Pair& pair, const Place& place) { get_pair(in_table(place), run, pair); });
 }
 
@@ -247,6 +267,12 @@ void SideBySide::stop(std::size_t run) {
   for (double* number : {law_.k_glass, law_.kt_glass, law_.friction, law_.damping, law_.dt, law_.half_dt,
                          law_.half_damping_dt})
     number[run] = 0.0;
+  for (SidePlaten* platen : {&bottom_, &top_}) {
+    auto& numbers = platen->numbers;
+    for (double* number : {numbers.k_glass, numbers.kt_glass, numbers.damping, numbers.dt,
+                           numbers.half_damping_dt})
+      number[run] = 0.0;
+  }
   runs_[run] = nullptr;
 }
 

@@ -44,6 +44,13 @@ struct SidePairs {
   AlignedVector<BendBlock> bends;        ///< where the law has bending
 };
 
+/// A platen in each run.
+struct SidePlaten {
+  AlignedVector<PlatenColumns> beads;  ///< of every row
+  std::vector<std::uint32_t> near;     ///< rows that it may touch in some run before the next listing
+  alignas(64) PlatenNumbers<BlockOf<double>> numbers = {};
+};
+
 /// LawNumbers and what a number has over one quantum, of each run.
 struct alignas(64) SideLaw {
   BlockOf<double> k_glass, kt_glass, friction, damping, dt, half_dt, half_damping_dt;

@@ -13,13 +13,52 @@
 //
 #include "hwy/highway.h"
 //
-#include "dem_core/step/pair_batch-inl.h"
+#include "dem_core/step/pair_lanes-inl.h"
 #include "dem_core/step/rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pendular::dem_core {
 namespace HWY_NAMESPACE {
 namespace {
+
+/// Blocks taken at a time, in three loops that leave each other a number of each pair in the first-level
+/// cache: how pairs move, what they do, and to which beads. Several pairs of such a short loop are under way
+/// in a core at once, where one pair's whole way is a chain of operations that wait for each other.
+constexpr std::size_t kBatch = 4;
+
+struct Batch {
+  using Column = double[kBatch * kBlock];
+  struct Columns3 {
+    HWY_ALIGN Column x, y, z;
+  };
+  Columns3 n, sliding;
+  HWY_ALIGN Column gap, closing, twist;
+  HWY_ALIGN Column arm_i, arm_j;  ///< half gap and radius
+  Columns3 spin, turning;         ///< where the law has bending
+  Columns3 force, couple, moment;
+};
+
+HWY_INLINE void store(const Triple<Lanes>& t, Batch::Columns3& to, std::size_t at) {
+  const Lanes::Tag tag;
+  hn::Store(t.x.v, tag, to.x + at), hn::Store(t.y.v, tag, to.y + at), hn::Store(t.z.v, tag, to.z + at);
+}
+HWY_INLINE Triple<Lanes> load(const Batch::Columns3& from, std::size_t at) {
+  const Lanes::Tag tag;
+  return {{hn::Load(tag, from.x + at)}, {hn::Load(tag, from.y + at)}, {hn::Load(tag, from.z + at)}};
+}
+
+/// Puts into the batch how pairs move; `difference` is R_i − R_j.
+template <bool bending>
+HWY_INLINE void put_motion(const PairMotion<Lanes>& motion, Lanes difference, const LawNumbers<Lanes>& law,
+                           Batch& batch, std::size_t at) {
+  const PairApproach<Lanes> seen = approach(motion, law);
+  store(seen.n, batch.n, at), store(seen.sliding, batch.sliding, at);
+  store(seen.gap, batch.gap + at), store(seen.closing, batch.closing + at),
+      store(seen.twist, batch.twist + at);
+  const Arms to_gap = arms(motion.radii, difference, seen.gap);
+  store(to_gap.i, batch.arm_i + at), store(to_gap.j, batch.arm_j + at);
+  if (bending) store(motion.spin, batch.spin, at), store(motion.turning, batch.turning, at);
+}
 
 /// Puts into the batch, from `at` on, how the pairs of a block move, from `lane` on.
 template <bool bending>
@@ -51,7 +90,10 @@ template <bool bending>
 HWY_INLINE void add_to_beads(const PairBlock& block, std::size_t lane, const Batch& batch, std::size_t at,
                              const LanesPerQuantum& per, std::int64_t* sums) {
   Shares shares;
-  put_shares<bending>(batch, at, per, shares);
+  PairAction<Lanes> action;
+  action.force = load(batch.force, at), action.couple = load(batch.couple, at);
+  if (bending) action.moment = load(batch.moment, at);
+  put_shares<bending>(action, {load(batch.arm_i + at), load(batch.arm_j + at)}, per, shares);
   const std::uint32_t *i = block.sum_i + lane, *j = block.sum_j + lane;
 #if HWY_MAX_BYTES == 64
   const WholeLanes::Tag tag;
@@ -88,6 +130,23 @@ void note_breaks(LaneMask breaking, std::size_t first, Chunk& chunk) {
     if (flags[lane] != 0.0) chunk.breaking.push_back(static_cast<std::uint32_t>(first + lane));
 }
 
+/// Advances the pairs of a block from `lane` on, whose columns of the batch begin at `at`. Returns which bonds
+/// break.
+template <bool may_touch, bool bending>
+HWY_INLINE LaneMask advance_batch(PairColumns& block, ContactBlock* contact, BendBlock* bend, std::size_t lane,
+                                  const Constants& given, Batch& batch, std::size_t at, Losses& losses) {
+  const PairApproach<Lanes> seen = {load(batch.n, at), load(batch.sliding, at), load(batch.gap + at),
+                                    load(batch.closing + at), load(batch.twist + at)};
+  PairMotion<Lanes> motion;
+  if (bending) motion.spin = load(batch.spin, at), motion.turning = load(batch.turning, at);
+  PairAction<Lanes> action;
+  const LaneMask breaking = advance_lanes<may_touch, bending>(block, contact, bend, lane, given, seen, motion,
+                                                              action, losses);
+  store(action.force, batch.force, at), store(action.couple, batch.couple, at);
+  if (bending) store(action.moment, batch.moment, at);
+  return breaking;
+}
+
 template <bool may_touch, bool bending>
 void advance(PairTable& pairs, BeadTable& beads, std::size_t first, std::size_t last,
              const LawNumbers<double>& law, LawParts parts, const PerQuantum& per, Chunk& chunk) {
@@ -113,7 +172,7 @@ void advance(PairTable& pairs, BeadTable& beads, std::size_t first, std::size_t 
       read_motion<bending>(blocks[b], lane, beads, given.law, batch, at);
     });
     for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
-      const LaneMask breaking = advance_lanes<may_touch, bending>(
+      const LaneMask breaking = advance_batch<may_touch, bending>(
           blocks[b].columns, may_touch ? contacts + (chunk.first_contact + b - chunk.touchable) : nullptr,
           bending ? bends + b : nullptr, lane, given, batch, at, losses);
       if (any(breaking)) note_breaks(breaking, kBlock * b + lane, chunk);

@@ -39,9 +39,16 @@ struct alignas(64) BendBlock {
   BlockOf<double> k_bend, k_twist, turn_x, turn_y, turn_z;
 };
 
-/// Which platens a bead may touch before the next listing.
-struct NearPlatens {
-  bool bottom, top;
+/// What a platen has and remembers of eight beads, or of one in eight runs.
+struct alignas(64) PlatenColumns {
+  BlockOf<double> relief, slip_x, slip_y, closing;
+};
+
+/// Eight beads that a platen may touch before the next listing. Those that fill a block up lie back from it by
+/// a metre.
+struct alignas(64) PlatenBlock {
+  BlockOf<std::uint32_t> row;  ///< where their rows begin in BeadTable
+  PlatenColumns columns;
 };
 
 struct PairTable {
@@ -84,11 +91,7 @@ struct Chunk {
     std::uint32_t from, to;
   };
   std::vector<Incoming> incoming;
-  struct NearPlaten {
-    std::size_t row;
-    NearPlatens near;
-  };
-  std::vector<NearPlaten> near_platen;
+  AlignedVector<PlatenBlock> near_bottom, near_top;
 
   // What the chunk adds to the sums over the specimen in one step, in quanta.
   std::int64_t damped = 0, slipped = 0, bottom = 0, top = 0;

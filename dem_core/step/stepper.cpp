@@ -5,7 +5,7 @@
 
 #include "dem_core/step/flush_denormals.h"
 #include "dem_core/step/listed.h"
-#include "dem_core/step/press.h"
+#include "dem_core/step/platen_kernels.h"
 #include "dem_core/step/step_kernels.h"
 
 namespace pendular::dem_core {
@@ -167,15 +167,14 @@ void Stepper::change_bonds(const BondEvolution& evolution, double elapsed) {
 }
 
 void Stepper::press_platens(Chunk& chunk) {
-  const PerQuantum per = per_quantum(quanta_);
-  for (const auto& [row, near] : chunk.near_platen) {
-    const Pressed sum = press(simulation_, bead_of_[row], motion(row), near, per);
-    std::int64_t* sums = &beads_.sums[kBeadRow * row];
-    for (int axis = 0; axis < 3; ++axis)
-      add(sums[axis], sum.force[axis]), add(sums[4 + axis], sum.torque[axis]);
-    add(chunk.bottom, sum.bottom), add(chunk.top, sum.top);
-    add(chunk.damped, sum.damped), add(chunk.slipped, sum.slipped);
-  }
+  const auto press = [&](const Platen& platen, AlignedVector<PlatenBlock>& near, std::int64_t& force) {
+    const PlatenTotals total = press_beads(
+        near, beads_, platen_numbers(platen, simulation_.law, simulation_.dt), per_quantum(quanta_));
+    force = total.force;
+    add(chunk.damped, total.damped), add(chunk.slipped, total.slipped);
+  };
+  press(simulation_.bottom, chunk.near_bottom, chunk.bottom);
+  press(simulation_.top, chunk.near_top, chunk.top);
 }
 
 void Stepper::add_up() {

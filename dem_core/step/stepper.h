@@ -53,6 +53,7 @@ class Stepper : public Stepping {
   void load_pair(const Chunk& chunk, std::size_t at);
   void share_sums();
   void find_beads_near_platens();
+  void store_platen(const AlignedVector<PlatenBlock>& near, Platen& platen);
   void store_pair(const Chunk& chunk, std::size_t at);
   ContactBlock* contact_of(const Chunk& chunk, std::size_t at);
   BendBlock* bend_of(std::size_t at);

@@ -172,11 +172,32 @@ void Stepper::share_sums() {
 }
 
 void Stepper::find_beads_near_platens() {
-  for (auto& chunk : chunks_)
+  for (auto& chunk : chunks_) {
+    std::size_t bottom = 0, top = 0;
+    const auto append = [&](const Platen& platen, std::size_t row, AlignedVector<PlatenBlock>& near,
+                            std::size_t& count) {
+      const std::size_t at = count++ % kBlock;
+      if (at == 0) {
+        PlatenBlock& fresh = near.emplace_back();
+        std::fill_n(fresh.row, kBlock, kBeadRow * static_cast<std::uint32_t>(row));
+        std::fill_n(fresh.columns.relief, kBlock, 1.0);
+      }
+      near.back().row[at] = kBeadRow * static_cast<std::uint32_t>(row);
+      put_bead(platen, bead_of_[row], near.back().columns, at);
+    };
     for (std::size_t row = chunk.first_bead; row < chunk.last_bead; ++row) {
       const NearPlatens near = near_platens(simulation_, bead_of_[row]);
-      if (near.bottom || near.top) chunk.near_platen.push_back({row, near});
+      if (near.bottom) append(simulation_.bottom, row, chunk.near_bottom, bottom);
+      if (near.top) append(simulation_.top, row, chunk.near_top, top);
     }
+  }
+}
+
+void Stepper::store_platen(const AlignedVector<PlatenBlock>& near, Platen& platen) {
+  for (const PlatenBlock& block : near)
+    for (std::size_t at = 0; at < kBlock; ++at)
+      if (at == 0 || block.row[at] != block.row[0])
+        get_bead(block.columns, at, bead_of_[block.row[at] / kBeadRow], platen);
 }
 
 BeadMotion Stepper::motion(std::size_t row) const {
@@ -194,6 +215,8 @@ void Stepper::store() {
     beads.spin[k] = bead.spin;
   }
   for_pairs([&](const Chunk& chunk, std::size_t p) { store_pair(chunk, p); });
+  for (const auto& chunk : chunks_)
+    store_platen(chunk.near_bottom, simulation_.bottom), store_platen(chunk.near_top, simulation_.top);
 }
 
 }  // namespace pendular::dem_core
