@@ -1,8 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "base/files.h"
 #include "base/provenance.h"
@@ -37,11 +42,34 @@ struct CompressResult {
   nlohmann::ordered_json result;  ///< what result.json holds
 };
 
+/// One compression test.
+struct CompressTask {
+  Packing packing;
+  Sample sample;
+  fs::path folder;
+  CompressOptions options;
+};
+
 /// Uniaxial compression between two platens to the sample's max_strain, into a run folder: curve.csv,
 /// events.csv, frames/, result.json, checkpoint. The packing is compressed as given; see realise().
 /// Interrupted by the user it keeps a checkpoint and throws Interrupted; where motion diverges it keeps the
 /// last good checkpoint and throws ComputationFailed.
+CompressResult compress(const CompressTask& task);
 CompressResult compress(const Packing& packing, const Sample& sample, const fs::path& folder,
                         const CompressOptions& options);
+
+/// What has become of a task: a result, or what compress() would have thrown.
+struct CompressOutcome {
+  std::optional<CompressResult> result;
+  std::exception_ptr error;
+};
+using CompressEnded = std::function<void(std::size_t task, const CompressOutcome& outcome)>;
+
+/// The first task, and of the others those that can be made beside it in the lanes of a register (SideBySide),
+/// on one thread: the same bytes as from compress(), in two thirds of the time where eight are made. Tells of
+/// each as it ends. Returns the tasks that it did not make. Interrupted by the user it keeps a checkpoint of
+/// each and throws Interrupted.
+std::vector<std::size_t> compress_side_by_side(std::span<const CompressTask> tasks,
+                                               const CompressEnded& ended);
 
 }  // namespace pendular::dem_core

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "dem_core/bond_bodies.h"
 #include "effects/list.h"
@@ -150,21 +152,28 @@ dem_core::Simulation actual_simulation(const ActualSpecimen& specimen) {
   return simulation;
 }
 
-dem_core::CompressResult compress_with_effects(const Packing& measured, const Sample& believed,
-                                               std::uint64_t seed, const fs::path& folder,
-                                               dem_core::CompressOptions options) {
+dem_core::CompressTask task_with_effects(const Packing& measured, const Sample& believed, std::uint64_t seed,
+                                         const fs::path& folder, dem_core::CompressOptions options) {
   const auto active = active_effects(believed, seed);
-  const ActualSpecimen specimen = actual_specimen(measured, believed, seed);
+  const auto specimen = std::make_shared<const ActualSpecimen>(actual_specimen(measured, believed, seed));
   if (!active.empty()) {
     options.work = fmt::format("effects of seed {} on\n{}", seed, sample_text(believed));
-    options.prepare = [&](dem_core::Simulation& simulation) { prepare(simulation, specimen, active); };
-    options.evolution = evolution_of(specimen, active);
-    options.read_rows = [&](std::vector<CurveRow>& rows, const dem_core::Simulation& simulation) {
+    options.prepare = [specimen, active](dem_core::Simulation& simulation) {
+      prepare(simulation, *specimen, active);
+    };
+    options.evolution = evolution_of(*specimen, active);
+    options.read_rows = [active](std::vector<CurveRow>& rows, const dem_core::Simulation& simulation) {
       for (const auto& [effect, theta, draws] : active)
         if (effect->rows) effect->rows(rows, {simulation.section, simulation.initial_height}, theta);
     };
   }
-  return dem_core::compress(specimen.packing, specimen.sample, folder, options);
+  return {specimen->packing, specimen->sample, folder, options};
+}
+
+dem_core::CompressResult compress_with_effects(const Packing& measured, const Sample& believed,
+                                               std::uint64_t seed, const fs::path& folder,
+                                               dem_core::CompressOptions options) {
+  return dem_core::compress(task_with_effects(measured, believed, seed, folder, std::move(options)));
 }
 
 }  // namespace pendular::effects

@@ -20,8 +20,11 @@ Packing reading(const Packing& actual, const Sample& believed, std::uint64_t see
 /// It between its platens, before its test: build_simulation() and the effects on it.
 dem_core::Simulation actual_simulation(const ActualSpecimen& specimen);
 
-/// compress() of that specimen, as its instruments report it. Without effects bitwise the same as realise()
-/// and compress().
+/// The test of that specimen, as its instruments report it. Without effects bitwise the same as of realise().
+dem_core::CompressTask task_with_effects(const Packing& measured, const Sample& believed, std::uint64_t seed,
+                                         const fs::path& folder, dem_core::CompressOptions options);
+
+/// compress() of it.
 dem_core::CompressResult compress_with_effects(const Packing& measured, const Sample& believed,
                                                std::uint64_t seed, const fs::path& folder,
                                                dem_core::CompressOptions options);
