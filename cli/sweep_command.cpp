@@ -41,16 +41,17 @@ void run(const SweepOptions& options) {
 
 struct RunOptions {
   fs::path store;
-  std::string hash;
+  std::vector<std::string> hashes;
   int threads = 1;
 };
 
-void run_one(const RunOptions& options) {
+void make_runs_of_store(const RunOptions& options) {
   set_threads(options.threads);
   if (!sweep::Store::exists(options.store))
     bad_input("{}: is no store of pendular sweep", options.store.string());
   sweep::Store store(options.store);
-  sweep::make_run(store, options.hash);
+  if (options.hashes.size() == 1) return sweep::make_run(store, options.hashes.front());
+  sweep::make_side_by_side(store, options.hashes);
 }
 
 }  // namespace
@@ -75,11 +76,11 @@ void add_sweep(CLI::App& app) {
 
 void add_sweep_run(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
-  auto* command = app.add_subcommand("sweep-run", "Makes one run of a sweep's store")->group("");
+  auto* command = app.add_subcommand("sweep-run", "Makes runs of a sweep's store")->group("");
   command->add_option("store", options->store)->required();
-  command->add_option("hash", options->hash)->required();
+  command->add_option("hashes", options->hashes)->required();
   command->add_option("--threads", options->threads)->check(CLI::Range(1, 4096));
-  command->callback([options] { run_one(*options); });
+  command->callback([options] { make_runs_of_store(*options); });
 }
 
 }  // namespace pendular::cli

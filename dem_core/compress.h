@@ -65,11 +65,13 @@ struct CompressOutcome {
 };
 using CompressEnded = std::function<void(std::size_t task, const CompressOutcome& outcome)>;
 
+/// So many tasks at most can be made side by side.
+inline constexpr std::size_t kMostSideBySide = 8;
+
 /// The first task, and of the others those that can be made beside it in the lanes of a register (SideBySide),
 /// on one thread: the same bytes as from compress(), in two thirds of the time where eight are made. Tells of
-/// each as it ends. Returns the tasks that it did not make. Interrupted by the user it keeps a checkpoint of
+/// each as it ends; of tasks that it does not make, nothing. Interrupted by the user it keeps a checkpoint of
 /// each and throws Interrupted.
-std::vector<std::size_t> compress_side_by_side(std::span<const CompressTask> tasks,
-                                               const CompressEnded& ended);
+void compress_side_by_side(std::span<const CompressTask> tasks, const CompressEnded& ended);
 
 }  // namespace pendular::dem_core

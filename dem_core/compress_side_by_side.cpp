@@ -9,6 +9,8 @@
 namespace pendular::dem_core {
 namespace {
 
+static_assert(kMostSideBySide == kRuns);
+
 /// A task that has a lane.
 struct Member {
   std::size_t task;
@@ -123,17 +125,12 @@ class Tests {
 
 }  // namespace
 
-std::vector<std::size_t> compress_side_by_side(std::span<const CompressTask> tasks,
-                                               const CompressEnded& ended) {
+void compress_side_by_side(std::span<const CompressTask> tasks, const CompressEnded& ended) {
   std::vector<Member> members;
-  std::vector<std::size_t> others;
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     try {
       Member member = {k, std::make_unique<Compression>(tasks[k])};
-      if (suits(members, member))
-        members.push_back(std::move(member));
-      else
-        others.push_back(k);
+      if (suits(members, member)) members.push_back(std::move(member));
     } catch (const Error&) {
       ended(k, {std::nullopt, std::current_exception()});
     }
@@ -152,7 +149,6 @@ std::vector<std::size_t> compress_side_by_side(std::span<const CompressTask> tas
     }
     ended(first, outcome);
   }
-  return others;
 }
 
 }  // namespace pendular::dem_core

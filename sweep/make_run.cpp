@@ -1,9 +1,12 @@
 #include "sweep/make_run.h"
 
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <new>
+#include <set>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "base/model_version.h"
@@ -20,11 +23,11 @@ namespace {
 
 constexpr auto kSignEvery = std::chrono::seconds(30);
 
-/// Gives signs of life for a run as long as it exists.
+/// Gives signs of life for runs as long as it exists.
 class SignsOfLife {
  public:
-  SignsOfLife(const fs::path& folder, const std::string& hash)
-      : thread_([this, folder, hash] { give(folder, hash); }) {}
+  SignsOfLife(const fs::path& folder, const std::vector<std::string>& hashes)
+      : thread_([this, folder, hashes] { give(folder, hashes); }) {}
   ~SignsOfLife() {
     {
       const std::lock_guard lock(mutex_);
@@ -37,11 +40,12 @@ class SignsOfLife {
   SignsOfLife& operator=(const SignsOfLife&) = delete;
 
  private:
-  void give(const fs::path& folder, const std::string& hash) {
+  void give(const fs::path& folder, const std::vector<std::string>& hashes) {
     std::unique_lock lock(mutex_);
     while (!end_.wait_for(lock, kSignEvery, [this] { return ended_; })) {
       try {
-        Store(folder).give_sign(hash);
+        Store store(folder);
+        for (const auto& hash : hashes) store.give_sign(hash);
       } catch (const Error&) {  // one sign missed does no harm
       }
     }
@@ -101,13 +105,25 @@ void book(Store& store, const std::string& hash, const RunRequest& request,
   store.finish(hash, effort);
 }
 
-void make(Store& store, const std::string& hash) {
-  const RunRequest request = store.request(hash);
+/// A run that this process makes.
+struct Making {
+  std::string hash;
+  RunRequest request;
+  dem_core::CompressTask task;
+};
+
+/// Nothing where the run's folder is whole: it is booked.
+std::optional<Making> begin(Store& store, const std::string& hash) {
+  Making making = {hash, store.request(hash), {}};
+  const RunRequest& request = making.request;
   if (content_hash(request) != hash)
     bad_input("run {}: was asked for by another version of the model, this is {}", hash, kModelVersion);
   const fs::path final_folder = store.run_folder(hash), folder = store.part_folder(hash);
   if (is_there(final_folder)) make_inner_folder(final_folder);
-  if (is_there(final_folder)) return book(store, hash, request, std::nullopt);
+  if (is_there(final_folder)) {
+    book(store, hash, request, std::nullopt);
+    return std::nullopt;
+  }
   make_inner_folder(folder);
   write_text(folder / "request.json", request_text(request));
   write_text(folder / "sample.toml", sample_text(request.sample));
@@ -117,31 +133,30 @@ void make(Store& store, const std::string& hash) {
   options.provenance = provenance_of(request, hash);
   const Packing packing = start_packing(store, request);
   options.provenance.inputs = {{"packing", sha256_of(store.packing_path(packing_hash(request)))}};
-  auto result = effects::compress_with_effects(packing, request.sample, request.seed, folder, options).result;
+  making.task = effects::task_with_effects(packing, request.sample, request.seed, folder, options);
+  return making;
+}
 
+void conclude(Store& store, const Making& making, const dem_core::CompressResult& done) {
+  auto result = done.result;
   Effort effort;
   effort.particle_steps = result["beads"].get<double>() * result["steps"].get<double>();
   const double rate = result["performance"]["particle_steps_per_second"];
   effort.seconds = rate > 0.0 ? effort.particle_steps / rate : 0.0;
   effort.threads = static_cast<int>(thread_count());
   result.erase("performance");  // the only part that differs between two runs of the same work
+  const fs::path folder = store.part_folder(making.hash);
   write_text(folder / run_file::kResult, result.dump(2) + "\n");
   remove_leftovers(folder);
-  rename_durably(folder, final_folder);
-  book(store, hash, request, effort);
+  rename_durably(folder, store.run_folder(making.hash));
+  book(store, making.hash, making.request, effort);
 }
 
-}  // namespace
-
-std::string run_command(const std::string& hash) {
-  return "pendular sweep: run " + hash;
-}
-
-void make_run(Store& store, const std::string& hash) {
-  if (!store.take(hash)) return;
-  const SignsOfLife signs(store.folder(), hash);
+/// Does part of a run's work. A failure is recorded in the store and thrown; interrupted, the run waits again.
+template <typename Work>
+void recorded(Store& store, const std::string& hash, const Work& work) {
   try {
-    make(store, hash);
+    work();
   } catch (const Interrupted&) {
     store.give_back(hash);
     throw;
@@ -155,6 +170,65 @@ void make_run(Store& store, const std::string& hash) {
     store.fail(hash, 4, error.what());
     throw;
   }
+}
+
+/// The same for one of several runs, of which the others go on: its log says why.
+template <typename Work>
+void recorded_for_itself(Store& store, const std::string& hash, const Work& work) {
+  try {
+    recorded(store, hash, work);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
+    write_text(store.log_path(hash), fmt::format("error: {}\n", error.what()));
+  }
+}
+
+}  // namespace
+
+std::string run_command(const std::string& hash) {
+  return "pendular sweep: run " + hash;
+}
+
+void make_run(Store& store, const std::string& hash) {
+  if (!store.take(hash)) return;
+  const SignsOfLife signs(store.folder(), {hash});
+  recorded(store, hash, [&] {
+    if (const auto making = begin(store, hash)) conclude(store, *making, dem_core::compress(making->task));
+  });
+}
+
+void make_side_by_side(Store& store, std::span<const std::string> hashes) {
+  std::set<std::string> open;
+  for (const auto& hash : hashes)
+    if (store.take(hash)) open.insert(hash);
+  const std::vector<std::string> taken(open.begin(), open.end());
+  const SignsOfLife signs(store.folder(), taken);
+  try {
+    std::vector<Making> makings;
+    std::vector<dem_core::CompressTask> tasks;
+    for (const auto& hash : taken) {
+      recorded_for_itself(store, hash, [&] {
+        if (auto making = begin(store, hash)) makings.push_back(std::move(*making));
+      });
+      if (makings.size() == tasks.size())
+        open.erase(hash);
+      else
+        tasks.push_back(std::move(makings.back().task));
+    }
+    const auto ended = [&](std::size_t k, const dem_core::CompressOutcome& outcome) {
+      open.erase(makings[k].hash);
+      recorded_for_itself(store, makings[k].hash, [&] {
+        if (outcome.error) std::rethrow_exception(outcome.error);
+        conclude(store, makings[k], *outcome.result);
+      });
+    };
+    dem_core::compress_side_by_side(tasks, ended);
+  } catch (const Interrupted&) {
+    for (const auto& hash : open) store.give_back(hash);
+    throw;
+  }
+  for (const auto& hash : open) store.give_back(hash);
 }
 
 }  // namespace pendular::sweep

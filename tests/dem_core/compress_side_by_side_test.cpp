@@ -56,11 +56,10 @@ TEST(CompressSideBySide, WritesTheBytesOfEachAlone) {
   ScratchFolder folder;
   const auto alone = tasks_in(folder / "alone", 8), together = tasks_in(folder / "together", 8);
   std::map<std::size_t, double> modulus;
-  const auto others = compress_side_by_side(together, [&](std::size_t task, const CompressOutcome& outcome) {
+  compress_side_by_side(together, [&](std::size_t task, const CompressOutcome& outcome) {
     ASSERT_TRUE(outcome.result.has_value()) << task;
     modulus[task] = outcome.result->rows.back().stress;
   });
-  EXPECT_TRUE(others.empty());
   EXPECT_EQ(modulus.size(), 8u);
   for (std::size_t n = 0; n < alone.size(); ++n) {
     const auto result = compress(alone[n]);
@@ -81,23 +80,23 @@ TEST(CompressSideBySide, OneThatFailsOrDoesNotSuitIsNoneOfTheOthersBusiness) {
   tasks[3].packing.bridges.clear();                // nothing to compress
   tasks[4].sample.compression.control = Control::relaxation;
   std::map<std::size_t, CompressOutcome> outcomes;
-  const auto others = compress_side_by_side(
+  compress_side_by_side(
       tasks, [&](std::size_t task, const CompressOutcome& outcome) { outcomes[task] = outcome; });
-  EXPECT_EQ(others, (std::vector<std::size_t>{2, 4}));
   EXPECT_TRUE(outcomes.at(0).result.has_value());
   EXPECT_THROW(std::rethrow_exception(outcomes.at(1).error), ComputationFailed);
   EXPECT_THROW(std::rethrow_exception(outcomes.at(3).error), BadInput);
-  EXPECT_EQ(outcomes.size(), 3u);
+  EXPECT_EQ(outcomes.size(), 3u) << "two do not suit";
   const auto alone = tasks_in(folder / "alone", 1);
   compress(alone[0]);
   EXPECT_EQ(bytes(alone[0].folder), bytes(tasks[0].folder));
 
-  // The first one is made in any case.
-  const auto left = compress_side_by_side(
-      std::span(tasks).subspan(2, 1), [&](std::size_t, const CompressOutcome& outcome) {
-        EXPECT_TRUE(outcome.result.has_value());
-      });
-  EXPECT_TRUE(left.empty());
+  for (const std::size_t n : {2, 4}) {
+    bool made = false;  // the first one is in any case
+    compress_side_by_side(std::span(tasks).subspan(n, 1), [&](std::size_t, const CompressOutcome& outcome) {
+      made = outcome.result.has_value();
+    });
+    EXPECT_TRUE(made) << n;
+  }
 }
 
 TEST(CompressSideBySide, InterruptedGoesOnToTheSameBytes) {
