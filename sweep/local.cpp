@@ -52,7 +52,9 @@ class Children {
     for (const auto& hash : free.subspan(1))
       if (!alone_.contains(free.front()) && !alone_.contains(hash) && kind(hash) == kind(free.front()))
         hashes.push_back(hash);
-    const std::size_t share = std::min(dem_core::kMostSideBySide, (hashes.size() + cores - 1) / cores);
+    std::size_t open = hashes.size();
+    for (const auto& child : children_) open += child.hashes.size();
+    const std::size_t share = std::min({dem_core::kMostSideBySide, hashes.size(), (open + cores - 1) / cores});
     hashes.resize(share >= kLeastSideBySide ? share : 1);
 
     std::vector<std::string> words = {fs::absolute(store_.folder()).string()};

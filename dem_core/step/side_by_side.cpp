@@ -8,18 +8,24 @@
 #include "dem_core/step/side_by_side_kernels.h"
 
 namespace pendular::dem_core {
+namespace {
+
+constexpr SideKind kKinds[] = {SideKind::apart, SideKind::touchable, SideKind::loose};
+
+}  // namespace
 
 void SideBySide::step() {
+  std::vector<SideBreak> breaking[3];
   {
     const FlushDenormals here;
     totals_ = {};
-    breaking_apart_.clear(), breaking_touchable_.clear();
-    advance_side_by_side(apart_, false, beads_, law_, parts_, totals_, breaking_apart_);
-    advance_side_by_side(touchable_, true, beads_, law_, parts_, totals_, breaking_touchable_);
+    for (const SideKind kind : kKinds)
+      advance_side_by_side(table(kind), kind, beads_, law_, parts_, totals_,
+                           breaking[static_cast<std::size_t>(kind)]);
     press_platens();
     move_side_by_side(beads_, bead_of_.size(), law_, totals_);
   }
-  break_bonds();
+  break_bonds(breaking);
   for (std::size_t run = 0; run < runs_.size(); ++run)
     if (runs_[run]) end_step(run);
 }
@@ -36,16 +42,14 @@ void SideBySide::press_platens() {
 }
 
 /// Breaks are taken when all beads have moved, those of a run in the order of its pairs.
-void SideBySide::break_bonds() {
+void SideBySide::break_bonds(const std::vector<SideBreak> (&noted)[3]) {
   std::vector<std::tuple<std::size_t, Place>> breaking;
-  const auto note = [&](const std::vector<SideBreak>& noted, bool may_touch) {
-    const SidePairs& pairs = may_touch ? touchable_ : apart_;
-    for (const auto& [at, run] : noted)
-      breaking.push_back({run,
-                          {static_cast<int>(bead_of_[pairs.ends[at].i]),
-                           static_cast<int>(bead_of_[pairs.ends[at].j]), may_touch, at}});
-  };
-  note(breaking_apart_, false), note(breaking_touchable_, true);
+  for (const SideKind kind : kKinds)
+    for (const auto& [at, run] : noted[static_cast<std::size_t>(kind)]) {
+      const auto [i, j] = table(kind).ends[at];
+      breaking.push_back(
+          {run, {static_cast<int>(bead_of_[i]), static_cast<int>(bead_of_[j]), kind, at}});
+    }
   std::sort(breaking.begin(), breaking.end());
   for (const auto& [run, place] : breaking) {
     Simulation& simulation = *runs_[run];

@@ -55,7 +55,7 @@ class SideBySide {
   /// Where the tables have a pair of beads, i < j.
   struct Place {
     int i, j;
-    bool may_touch;
+    SideKind kind;
     std::size_t at;
     bool operator<(const Place& other) const { return i != other.i ? i < other.i : j < other.j; }
   };
@@ -69,7 +69,7 @@ class SideBySide {
   void find_beads_near_platens();
   void list_anew(std::size_t run);
   void let_touch(Place& place);
-  SidePairs& pairs_of(const Place& place) { return place.may_touch ? touchable_ : apart_; }
+  SidePairs& table(SideKind kind) { return tables_[static_cast<std::size_t>(kind)]; }
   PairPlace in_table(const Place& place);
   /// Calls f(pair, place) for every pair of a run.
   template <typename Function>
@@ -83,7 +83,7 @@ class SideBySide {
   void store_beads(std::size_t run);
   BeadMotion motion(std::size_t row, std::size_t run) const;
   void press_platens();
-  void break_bonds();
+  void break_bonds(const std::vector<SideBreak> (&noted)[3]);
   void end_step(std::size_t run);
 
   std::vector<Simulation*> runs_;  ///< none: its run has stopped
@@ -94,11 +94,10 @@ class SideBySide {
   std::vector<Place> places_;          ///< sorted
   std::size_t ordered_ = 0;            ///< pairs of the tables when they were loaded; others are at their ends
   SideBeads beads_;
-  SidePairs apart_, touchable_;
+  SidePairs tables_[3];  ///< one of each kind
   SideLaw law_ = {};
   SideTotals totals_ = {};
   SidePlaten bottom_, top_;
-  std::vector<SideBreak> breaking_apart_, breaking_touchable_;
 };
 
 }  // namespace pendular::dem_core

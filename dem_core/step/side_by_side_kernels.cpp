@@ -1,5 +1,7 @@
 #include "dem_core/step/side_by_side_kernels.h"
 
+#include <utility>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "dem_core/step/side_by_side_kernels.cpp"
 #include "hwy/foreach_target.h"
@@ -65,9 +67,22 @@ void note_breaks(LaneMask breaking, std::size_t pair, std::size_t first, std::ve
     if (flags[lane] != 0.0) noted.push_back({pair, first + lane});
 }
 
-template <bool may_touch, bool bending>
+/// Whether the glass of a pair without a bond is apart in all runs, by more than rounding.
+HWY_INLINE bool all_apart(const SideBead& i, const SideBead& j, const ContactBlock& contact) {
+  bool apart = true;
+  for (std::size_t lane = 0; lane < kRuns; lane += kLanes) {
+    const Triple<Lanes> way = load(i.x, i.y, i.z, lane) - load(j.x, j.y, j.z, lane);
+    const Lanes reach = load(i.radius + lane) + load(j.radius + lane) + load(contact.touch + lane);
+    const Lanes squared = dot(way, way);
+    apart &= !any(reach * reach >= same(1.0 - 1e-9, squared) * squared);
+  }
+  return apart;
+}
+
+template <SideKind kind, bool bending>
 void advance(SidePairs& pairs, SideBeads& beads, const SideLaw& law, LawParts parts, SideTotals& totals,
              std::vector<SideBreak>& breaking) {
+  constexpr bool may_touch = kind != SideKind::apart;
   const WholeLanes::Tag tag;
   Constants given[kParts];
   Losses losses[kParts];
@@ -79,9 +94,14 @@ void advance(SidePairs& pairs, SideBeads& beads, const SideLaw& law, LawParts pa
   PairColumns* const columns = pairs.columns.data();
   ContactBlock* const contacts = pairs.contacts.data();
   BendBlock* const bends = pairs.bends.data();
+  [[maybe_unused]] char* const idle = pairs.idle.data();
   SideBead* const motion = beads.motion.data();
   SideSums* const sums = beads.sums.data();
-  for (std::size_t p = 0; p < pairs.ends.size(); ++p)
+  for (std::size_t p = 0; p < pairs.ends.size(); ++p) {
+    if (kind == SideKind::loose) {
+      const bool apart = all_apart(motion[ends[p].i], motion[ends[p].j], contacts[p]);
+      if (std::exchange(idle[p], apart) && apart) continue;
+    }
     for (std::size_t part = 0, lane = 0; part < kParts; ++part, lane += kLanes) {
       const SideBead &bead_i = motion[ends[p].i], &bead_j = motion[ends[p].j];
       PairMotion<Lanes> moving;
@@ -97,17 +117,26 @@ void advance(SidePairs& pairs, SideBeads& beads, const SideLaw& law, LawParts pa
       add_to_beads(shares, lane, sums[ends[p].i], sums[ends[p].j]);
       if (any(broken)) note_breaks(broken, p, lane, breaking);
     }
+  }
   for (std::size_t part = 0; part < kParts; ++part) {
     add(losses[part].damped, totals.damped + part * kLanes);
     add(losses[part].slipped, totals.slipped + part * kLanes);
   }
 }
 
-void AdvanceSideBySide(SidePairs& pairs, bool may_touch, SideBeads& beads, const SideLaw& law, LawParts parts,
-                       SideTotals& totals, std::vector<SideBreak>& breaking) {
-  const auto of = may_touch ? (parts.bending ? advance<true, true> : advance<true, false>)
-                            : (parts.bending ? advance<false, true> : advance<false, false>);
+template <bool bending>
+void advance(SidePairs& pairs, SideKind kind, SideBeads& beads, const SideLaw& law, LawParts parts,
+             SideTotals& totals, std::vector<SideBreak>& breaking) {
+  const auto of = kind == SideKind::apart       ? advance<SideKind::apart, bending>
+                  : kind == SideKind::touchable ? advance<SideKind::touchable, bending>
+                                                : advance<SideKind::loose, bending>;
   of(pairs, beads, law, parts, totals, breaking);
+}
+
+void AdvanceSideBySide(SidePairs& pairs, SideKind kind, SideBeads& beads, const SideLaw& law, LawParts parts,
+                       SideTotals& totals, std::vector<SideBreak>& breaking) {
+  const auto of = parts.bending ? advance<true> : advance<false>;
+  of(pairs, kind, beads, law, parts, totals, breaking);
 }
 
 /// Adds what one number of a bead's motion changes by in a step, and clears the sum that it follows from.
@@ -162,9 +191,9 @@ HWY_EXPORT(AdvanceSideBySide);
 HWY_EXPORT(MoveSideBySide);
 }  // namespace
 
-void advance_side_by_side(SidePairs& pairs, bool may_touch, SideBeads& beads, const SideLaw& law,
+void advance_side_by_side(SidePairs& pairs, SideKind kind, SideBeads& beads, const SideLaw& law,
                           LawParts parts, SideTotals& totals, std::vector<SideBreak>& breaking) {
-  HWY_DYNAMIC_DISPATCH(AdvanceSideBySide)(pairs, may_touch, beads, law, parts, totals, breaking);
+  HWY_DYNAMIC_DISPATCH(AdvanceSideBySide)(pairs, kind, beads, law, parts, totals, breaking);
 }
 
 void move_side_by_side(SideBeads& beads, std::size_t size, const SideLaw& law, SideTotals& totals) {

@@ -10,8 +10,9 @@ namespace pendular::dem_core {
 /// The two loops of a time step of several runs, compiled for several instruction sets: operation by operation
 /// those of step_kernels.h, on one pair of all runs at a time.
 
-/// Advances pairs: springs, losses, breaks; adds their forces to the sums.
-void advance_side_by_side(SidePairs& pairs, bool may_touch, SideBeads& beads, const SideLaw& law,
+/// Advances pairs: springs, losses, breaks; adds their forces to the sums. Loose pairs that are apart in all
+/// runs, and were, are passed over: they neither do nor remember anything.
+void advance_side_by_side(SidePairs& pairs, SideKind kind, SideBeads& beads, const SideLaw& law,
                           LawParts parts, SideTotals& totals, std::vector<SideBreak>& breaking);
 
 /// Moves the beads by their sums, and clears these.

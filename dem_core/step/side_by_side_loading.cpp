@@ -8,7 +8,7 @@ namespace pendular::dem_core {
 namespace {
 
 constexpr double kMostPairs = 1.2;  // of all runs to those of one: what that costs takes the gain
-constexpr std::size_t kOutOfOrder = 16;  // one pair in so many, and the tables are loaded anew
+constexpr std::size_t kOutOfOrder = 8;  // one pair in so many, and the tables are loaded anew
 
 bool same_parts(const LawParameters& a, const LawParameters& b) {
   return a.one_spring == b.one_spring && a.bond_friction_limit == b.bond_friction_limit &&
@@ -24,13 +24,25 @@ std::vector<IndexPair> pairs_of_all(std::span<Simulation* const> simulations) {
   return pairs;
 }
 
-/// Appends a pair that no run has bonded; returns its place.
-std::size_t append(SidePairs& pairs, SidePairs::Ends ends, bool may_touch, bool bending) {
+/// Appends a pair; returns its place.
+std::size_t append(SidePairs& pairs, SidePairs::Ends ends, SideKind kind, bool bending) {
   pairs.ends.push_back(ends);
   pairs.columns.push_back({});
-  if (may_touch) pairs.contacts.push_back({});
+  if (kind != SideKind::apart) pairs.contacts.push_back({});
+  if (kind == SideKind::loose) pairs.idle.push_back(false);
   if (bending) pairs.bends.push_back({});
   return pairs.ends.size() - 1;
+}
+
+SideKind kind_of(const Pair& pair, bool may_touch) {
+  return pair.bond < 0 ? SideKind::loose : may_touch ? SideKind::touchable : SideKind::apart;
+}
+
+/// Of a pair that has these kinds in two runs.
+SideKind of_both(SideKind a, SideKind b) {
+  if (a == b) return a;
+  // Only bonds whose glass cannot touch in any run are apart; pairs not listed by a run cannot touch there.
+  return SideKind::touchable;
 }
 
 }  // namespace
@@ -134,21 +146,23 @@ void SideBySide::load_listing(std::size_t run) {
   }
 }
 
-/// Pairs in the order of their first rows, those that cannot touch in any run apart from those that may.
+/// Pairs in the order of their first rows.
 void SideBySide::load_places() {
   places_.clear();
   for (const Simulation* simulation : runs_) {
     if (!simulation) continue;
     const std::vector<char> may_touch = touchable(*simulation);
-    for (std::size_t p = 0; p < may_touch.size(); ++p)
-      places_.push_back({simulation->pairs[p].i, simulation->pairs[p].j, may_touch[p] != 0, 0});
+    for (std::size_t p = 0; p < may_touch.size(); ++p) {
+      const Pair& pair = simulation->pairs[p];
+      places_.push_back({pair.i, pair.j, kind_of(pair, may_touch[p] != 0), 0});
+    }
   }
   std::sort(places_.begin(), places_.end());
   std::size_t kept = 0;
   for (const Place& place : places_) {
     const bool known = kept > 0 && !(places_[kept - 1] < place);
     if (known)
-      places_[kept - 1].may_touch |= place.may_touch;
+      places_[kept - 1].kind = of_both(places_[kept - 1].kind, place.kind);
     else
       places_[kept++] = place;
   }
@@ -159,9 +173,10 @@ void SideBySide::load_places() {
   const auto rows = [&](const Place* place) { return std::minmax(row_of_[place->i], row_of_[place->j]); };
   std::sort(ordered.begin(), ordered.end(),
             [&](const Place* a, const Place* b) { return rows(a) < rows(b); });
-  apart_ = touchable_ = {};
+  for (SidePairs& pairs : tables_) pairs = {};
   for (Place* place : ordered)
-    place->at = append(pairs_of(*place), {row_of_[place->i], row_of_[place->j]}, place->may_touch, parts_.bending);
+    place->at =
+        append(table(place->kind), {row_of_[place->i], row_of_[place->j]}, place->kind, parts_.bending);
   for (std::size_t run = 0; run < runs_.size(); ++run)
     if (runs_[run])
       for_pairs(run, [&](const Pair& pair, const Place& place) { put_pair(pair, in_table(place), run); });
@@ -169,8 +184,8 @@ void SideBySide::load_places() {
 }
 
 PairPlace SideBySide::in_table(const Place& place) {
-  SidePairs& pairs = pairs_of(place);
-  return {&pairs.columns[place.at], place.may_touch ? &pairs.contacts[place.at] : nullptr,
+  SidePairs& pairs = table(place.kind);
+  return {&pairs.columns[place.at], place.kind == SideKind::apart ? nullptr : &pairs.contacts[place.at],
           parts_.bending ? &pairs.bends[place.at] : nullptr};
 }
 
@@ -198,20 +213,22 @@ void SideBySide::list_anew(std::size_t run) {
   std::vector<Place> missing;
   auto place = places_.begin();
   for (std::size_t p = 0; p < may_touch.size(); ++p) {
-    const Place wanted = {simulation.pairs[p].i, simulation.pairs[p].j, may_touch[p] != 0, 0};
+    const Place wanted = {simulation.pairs[p].i, simulation.pairs[p].j, SideKind::loose, 0};
     while (place != places_.end() && *place < wanted) ++place;
     if (place == places_.end() || wanted < *place)
       missing.push_back(wanted);
-    else if (wanted.may_touch && !place->may_touch)
+    else if (may_touch[p] && place->kind == SideKind::apart)
       let_touch(*place);
   }
   for (Place& one : missing)
-    one.at = append(pairs_of(one), {row_of_[one.i], row_of_[one.j]}, one.may_touch, parts_.bending);
+    one.at = append(table(one.kind), {row_of_[one.i], row_of_[one.j]}, one.kind, parts_.bending);
   const auto known = static_cast<std::ptrdiff_t>(places_.size());
   places_.insert(places_.end(), missing.begin(), missing.end());
   std::inplace_merge(places_.begin(), places_.begin() + known, places_.end());
   find_beads_near_platens();
-  if (apart_.ends.size() + touchable_.ends.size() < ordered_ + ordered_ / kOutOfOrder) return;
+  std::size_t size = 0;
+  for (const SidePairs& pairs : tables_) size += pairs.ends.size();
+  if (size < ordered_ + ordered_ / kOutOfOrder) return;
   for (std::size_t k = 0; k < runs_.size(); ++k)
     if (runs_[k]) store(k);
   load();
@@ -220,16 +237,17 @@ void SideBySide::list_anew(std::size_t run) {
 /// Moves a pair to those that may touch. Its glass is apart as yet; in its old place a pair stays that never
 /// acts.
 void SideBySide::let_touch(Place& place) {
+  SidePairs &apart = table(SideKind::apart), &touching = table(SideKind::touchable);
   const std::size_t before = place.at;
-  place.may_touch = true;
-  place.at = append(touchable_, apart_.ends[before], true, parts_.bending);
-  touchable_.columns[place.at] = std::exchange(apart_.columns[before], {});
-  if (parts_.bending) touchable_.bends[place.at] = std::exchange(apart_.bends[before], {});
+  place.kind = SideKind::touchable;
+  place.at = append(touching, apart.ends[before], place.kind, parts_.bending);
+  touching.columns[place.at] = std::exchange(apart.columns[before], {});
+  if (parts_.bending) touching.bends[place.at] = std::exchange(apart.bends[before], {});
   const auto nowhere = static_cast<std::uint32_t>(bead_of_.size());
-  apart_.ends[before] = {nowhere, nowhere + 1};
+  apart.ends[before] = {nowhere, nowhere + 1};
   for (std::size_t run = 0; run < runs_.size(); ++run)
     if (const Pair* pair = runs_[run] ? find_pair(*runs_[run], place.i, place.j) : nullptr)
-      touchable_.contacts[place.at].touch[run] = pair->properties.touch;
+      touching.contacts[place.at].touch[run] = pair->properties.touch;
 }
 
 void SideBySide::store_beads(std::size_t run) {
@@ -259,8 +277,8 @@ BeadMotion SideBySide::motion(std::size_t row, std::size_t run) const {
 }
 
 void SideBySide::stop(std::size_t run) {
-  for (SidePairs* pairs : {&apart_, &touchable_})
-    for (PairColumns& columns : pairs->columns) columns.kn[run] = columns.kt[run] = 0.0F;
+  for (SidePairs& pairs : tables_)
+    for (PairColumns& columns : pairs.columns) columns.kn[run] = columns.kt[run] = 0.0F;
   for (SideBead& bead : beads_.motion)
     for (double* number : {bead.vx, bead.vy, bead.vz, bead.wx, bead.wy, bead.wz}) number[run] = 0.0;
   for (SideInertia& bead : beads_.inertia) bead.per_mass[run] = bead.per_inertia[run] = 0.0;

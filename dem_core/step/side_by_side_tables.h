@@ -42,6 +42,14 @@ struct SidePairs {
   AlignedVector<PairColumns> columns;
   AlignedVector<ContactBlock> contacts;  ///< where the glass of the pairs may touch before the next listing
   AlignedVector<BendBlock> bends;        ///< where the law has bending
+  std::vector<char> idle;                ///< of pairs without a bond: whether they were apart in the last step
+};
+
+/// What the pairs of a table have in common.
+enum class SideKind {
+  apart,      ///< bonds in some run; glass that cannot touch in any before the next listing
+  touchable,  ///< bonds in some run; glass that may touch
+  loose       ///< no bond in any run
 };
 
 /// A platen in each run.
