@@ -18,7 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// With fewer in the lanes of a register a run takes longer than it does alone, on a thread of its own.
-constexpr std::size_t kLeastSideBySide = 7;
+constexpr std::size_t kLeastSideBySide = 6;
 
 /// What runs have in common that can be made side by side, as far as their requests tell.
 std::string kind_of(const RunRequest& request) {

@@ -1,6 +1,6 @@
 #include "dem_core/step/side_by_side_kernels.h"
 
-#include <utility>
+#include <cstdint>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "dem_core/step/side_by_side_kernels.cpp"
@@ -67,6 +67,15 @@ void note_breaks(LaneMask breaking, std::size_t pair, std::size_t first, std::ve
     if (flags[lane] != 0.0) noted.push_back({pair, first + lane});
 }
 
+/// Whether the glass of a pair is apart in some runs and was in the last step, so that it neither does nor
+/// remembers anything. Notes the first for the next step, in a bit for these lanes.
+HWY_INLINE bool glass_is_idle(Lanes gap, const ContactBlock& contact, std::size_t lane, std::uint8_t& was_apart) {
+  const auto bit = static_cast<std::uint8_t>(1u << lane);
+  const bool was = was_apart & bit, apart = !any(gap <= load(contact.touch + lane));
+  was_apart = apart ? was_apart | bit : was_apart & ~bit;
+  return was && apart;
+}
+
 /// Whether the glass of a pair without a bond is apart in all runs, by more than rounding.
 HWY_INLINE bool all_apart(const SideBead& i, const SideBead& j, const ContactBlock& contact) {
   bool apart = true;
@@ -77,6 +86,13 @@ HWY_INLINE bool all_apart(const SideBead& i, const SideBead& j, const ContactBlo
     apart &= !any(reach * reach >= same(1.0 - 1e-9, squared) * squared);
   }
   return apart;
+}
+
+/// The bits that glass_is_idle() notes.
+constexpr std::uint8_t lanes_of_all_parts() {
+  std::uint8_t bits = 0;
+  for (std::size_t lane = 0; lane < kRuns; lane += kLanes) bits |= static_cast<std::uint8_t>(1u << lane);
+  return bits;
 }
 
 template <SideKind kind, bool bending>
@@ -94,23 +110,28 @@ void advance(SidePairs& pairs, SideBeads& beads, const SideLaw& law, LawParts pa
   PairColumns* const columns = pairs.columns.data();
   ContactBlock* const contacts = pairs.contacts.data();
   BendBlock* const bends = pairs.bends.data();
-  [[maybe_unused]] char* const idle = pairs.idle.data();
+  [[maybe_unused]] std::uint8_t* const were_apart = pairs.apart.data();
   SideBead* const motion = beads.motion.data();
   SideSums* const sums = beads.sums.data();
   for (std::size_t p = 0; p < pairs.ends.size(); ++p) {
     if (kind == SideKind::loose) {
-      const bool apart = all_apart(motion[ends[p].i], motion[ends[p].j], contacts[p]);
-      if (std::exchange(idle[p], apart) && apart) continue;
+      constexpr std::uint8_t kAllLanes = lanes_of_all_parts();
+      if (were_apart[p] == kAllLanes && all_apart(motion[ends[p].i], motion[ends[p].j], contacts[p])) continue;
     }
     for (std::size_t part = 0, lane = 0; part < kParts; ++part, lane += kLanes) {
       const SideBead &bead_i = motion[ends[p].i], &bead_j = motion[ends[p].j];
       PairMotion<Lanes> moving;
       put_motion<bending>(bead_i, bead_j, lane, moving);
       const PairApproach<Lanes> seen = approach(moving, given[part].law);
+      BendBlock* const bend = bending ? bends + p : nullptr;
       PairAction<Lanes> action;
-      const LaneMask broken = advance_lanes<may_touch, bending>(
-          columns[p], may_touch ? contacts + p : nullptr, bending ? bends + p : nullptr, lane, given[part],
-          seen, moving, action, losses[part]);
+      LaneMask broken;
+      if (!may_touch || glass_is_idle(seen.gap, contacts[p], lane, were_apart[p]))
+        broken = advance_lanes<false, bending>(columns[p], nullptr, bend, lane, given[part], seen, moving,
+                                               action, losses[part]);
+      else
+        broken = advance_lanes<true, bending>(columns[p], contacts + p, bend, lane, given[part], seen, moving,
+                                              action, losses[part]);
       const Lanes difference = load(bead_i.radius + lane) - load(bead_j.radius + lane);
       Shares shares;
       put_shares<bending>(action, arms(moving.radii, difference, seen.gap), given[part].per, shares);

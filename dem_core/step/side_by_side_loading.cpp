@@ -28,8 +28,7 @@ std::vector<IndexPair> pairs_of_all(std::span<Simulation* const> simulations) {
 std::size_t append(SidePairs& pairs, SidePairs::Ends ends, SideKind kind, bool bending) {
   pairs.ends.push_back(ends);
   pairs.columns.push_back({});
-  if (kind != SideKind::apart) pairs.contacts.push_back({});
-  if (kind == SideKind::loose) pairs.idle.push_back(false);
+  if (kind != SideKind::apart) pairs.contacts.push_back({}), pairs.apart.push_back(0);
   if (bending) pairs.bends.push_back({});
   return pairs.ends.size() - 1;
 }

@@ -42,7 +42,7 @@ struct SidePairs {
   AlignedVector<PairColumns> columns;
   AlignedVector<ContactBlock> contacts;  ///< where the glass of the pairs may touch before the next listing
   AlignedVector<BendBlock> bends;        ///< where the law has bending
-  std::vector<char> idle;                ///< of pairs without a bond: whether they were apart in the last step
+  std::vector<std::uint8_t> apart;       ///< of these, in which lanes it was apart in the last step
 };
 
 /// What the pairs of a table have in common.
