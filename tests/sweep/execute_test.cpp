@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "dem_core/compress.h"
 #include "packing/bridges.h"
@@ -129,6 +131,48 @@ TEST(Execute, AProgramThatCannotDoItEndsTheLoop) {
   EXPECT_EQ(outcomes[0].exit_status, 137);
   EXPECT_NE(outcomes[0].message.find("killed by signal 9"), std::string::npos) << outcomes[0].message;
   EXPECT_NE(outcomes[0].message.find("out of luck"), std::string::npos) << outcomes[0].message;
+}
+
+/// Eight runs that can be made side by side, of which one diverges.
+std::vector<RunRequest> family() {
+  std::vector<RunRequest> requests;
+  for (int n = 0; n < 8; ++n) {
+    requests.push_back(tiny_request(4));
+    requests.back().sample.contact.friction = 0.5 - 0.03 * n;
+  }
+  requests[3].sample.contact.time_step_fraction = 0.5;
+  requests[3].sample.contact.damping_fraction = 1.0;
+  return requests;
+}
+
+TEST(Execute, RunsSideBySideAreThoseMadeAlone) {
+  ScratchFolder folder;
+  Store alone(folder / "alone"), together(folder / "together"), killed(folder / "killed");
+  ExecuteOptions options = with_program();
+  options.cores = 8;  // one for each
+  const auto expected = execute(alone, family(), options);
+  options.cores = 1;
+  const auto found = execute(together, family(), options);
+  // A process that makes several and dies leaves them to processes of their own.
+  write_text(folder / "frail", fmt::format("#!/bin/sh\nif [ $# -gt 5 ]; then kill -9 $$; fi\nexec '{}' \"$@\"\n",
+                                           pendular::test::program()));
+  fs::permissions(folder / "frail", fs::perms::owner_all);
+  options.worker = {folder / "frail", {"sweep-run"}};
+  const auto after = execute(killed, family(), options);
+
+  EXPECT_EQ(expected[3].status, RunStatus::failed);
+  for (const auto* outcomes : {&found, &after})
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      EXPECT_EQ((*outcomes)[k].status, expected[k].status) << (*outcomes)[k].message;
+      EXPECT_EQ((*outcomes)[k].message, expected[k].message);
+      EXPECT_EQ((*outcomes)[k].exit_status, expected[k].exit_status);
+    }
+  EXPECT_EQ(test::run_bytes(folder / "together"), test::run_bytes(folder / "alone"));
+  EXPECT_EQ(test::run_bytes(folder / "killed"), test::run_bytes(folder / "alone"));
+  // One process has made them: its log is of the first, and the one that failed has a log of its own.
+  std::size_t logs = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "together" / "logs")) logs += entry.is_regular_file();
+  EXPECT_EQ(logs, 2u);
 }
 
 }  // namespace
