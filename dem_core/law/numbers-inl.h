@@ -10,6 +10,7 @@
 #endif
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "dem_core/law/law_parameters.h"
@@ -49,7 +50,8 @@ HWY_INLINE double same(double value, double /*like*/) {
   return value;
 }
 
-/// As many pairs as a register holds.
+/// Pairs that a register holds.
+constexpr std::size_t kLanes = HWY_LANES(double);
 struct Lanes {
   using Tag = hn::ScalableTag<double>;
   hn::Vec<Tag> v;

@@ -119,6 +119,23 @@ HWY_INLINE LaneMask advance_lanes(PairColumns& block, ContactBlock* contact, Ben
   return both(data.kn > zero, breaks(seen.gap, memory.bond_slip, data));
 }
 
+/// Whether the glass of these lanes is apart and was in the last step, so that it neither does nor remembers
+/// anything. Notes the first for the next step, in a bit of these lanes.
+HWY_INLINE bool glass_is_idle(Lanes gap, const ContactBlock& contact, std::size_t lane, std::uint8_t& was_apart) {
+  const auto bit = static_cast<std::uint8_t>(1u << lane);
+  const bool was = was_apart & bit, apart = !any(gap <= load(contact.touch + lane));
+  was_apart = apart ? was_apart | bit : was_apart & ~bit;
+  return was && apart;
+}
+
+/// The bits of all lanes of a block.
+constexpr std::uint8_t bits_of_all_lanes() {
+  std::uint8_t bits = 0;
+  for (std::size_t lane = 0; lane < kBlock; lane += kLanes) bits |= static_cast<std::uint8_t>(1u << lane);
+  return bits;
+}
+constexpr std::uint8_t kAllLanes = bits_of_all_lanes();
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace pendular::dem_core

@@ -18,9 +18,6 @@ HWY_BEFORE_NAMESPACE();
 namespace pendular::dem_core {
 namespace HWY_NAMESPACE {
 
-/// Pairs that a register holds.
-constexpr std::size_t kLanes = HWY_LANES(double);
-
 /// Rows of four numbers. A register may hold a whole row or part of it.
 using Row = hn::CappedTag<double, 4>;
 using WholeRow = hn::RebindToSigned<Row>;

@@ -10,7 +10,7 @@
 namespace pendular::dem_core {
 namespace {
 
-constexpr SideKind kKinds[] = {SideKind::apart, SideKind::touchable, SideKind::loose};
+constexpr PairKind kKinds[] = {PairKind::apart, PairKind::touchable, PairKind::loose};
 
 }  // namespace
 
@@ -19,7 +19,7 @@ void SideBySide::step() {
   {
     const FlushDenormals here;
     totals_ = {};
-    for (const SideKind kind : kKinds)
+    for (const PairKind kind : kKinds)
       advance_side_by_side(table(kind), kind, beads_, law_, parts_, totals_,
                            breaking[static_cast<std::size_t>(kind)]);
     press_platens();
@@ -44,7 +44,7 @@ void SideBySide::press_platens() {
 /// Breaks are taken when all beads have moved, those of a run in the order of its pairs.
 void SideBySide::break_bonds(const std::vector<SideBreak> (&noted)[3]) {
   std::vector<std::tuple<std::size_t, Place>> breaking;
-  for (const SideKind kind : kKinds)
+  for (const PairKind kind : kKinds)
     for (const auto& [at, run] : noted[static_cast<std::size_t>(kind)]) {
       const auto [i, j] = table(kind).ends[at];
       breaking.push_back(

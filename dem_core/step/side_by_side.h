@@ -55,7 +55,7 @@ class SideBySide {
   /// Where the tables have a pair of beads, i < j.
   struct Place {
     int i, j;
-    SideKind kind;
+    PairKind kind;
     std::size_t at;
     bool operator<(const Place& other) const { return i != other.i ? i < other.i : j < other.j; }
   };
@@ -69,7 +69,7 @@ class SideBySide {
   void find_beads_near_platens();
   void list_anew(std::size_t run);
   void let_touch(Place& place);
-  SidePairs& table(SideKind kind) { return tables_[static_cast<std::size_t>(kind)]; }
+  SidePairs& table(PairKind kind) { return tables_[static_cast<std::size_t>(kind)]; }
   PairPlace in_table(const Place& place);
   /// Calls f(pair, place) for every pair of a run.
   template <typename Function>

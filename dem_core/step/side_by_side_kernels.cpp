@@ -15,7 +15,7 @@ namespace pendular::dem_core {
 namespace HWY_NAMESPACE {
 namespace {
 
-constexpr std::size_t kLanes = HWY_LANES(double), kParts = kRuns / kLanes;
+constexpr std::size_t kParts = kRuns / kLanes;
 
 Constants constants(const SideLaw& law, std::size_t lane, LawParts parts) {
   return {{load(law.k_glass + lane), load(law.kt_glass + lane), load(law.friction + lane),
@@ -67,15 +67,6 @@ void note_breaks(LaneMask breaking, std::size_t pair, std::size_t first, std::ve
     if (flags[lane] != 0.0) noted.push_back({pair, first + lane});
 }
 
-/// Whether the glass of a pair is apart in some runs and was in the last step, so that it neither does nor
-/// remembers anything. Notes the first for the next step, in a bit for these lanes.
-HWY_INLINE bool glass_is_idle(Lanes gap, const ContactBlock& contact, std::size_t lane, std::uint8_t& was_apart) {
-  const auto bit = static_cast<std::uint8_t>(1u << lane);
-  const bool was = was_apart & bit, apart = !any(gap <= load(contact.touch + lane));
-  was_apart = apart ? was_apart | bit : was_apart & ~bit;
-  return was && apart;
-}
-
 /// Whether the glass of a pair without a bond is apart in all runs, by more than rounding.
 HWY_INLINE bool all_apart(const SideBead& i, const SideBead& j, const ContactBlock& contact) {
   bool apart = true;
@@ -88,17 +79,10 @@ HWY_INLINE bool all_apart(const SideBead& i, const SideBead& j, const ContactBlo
   return apart;
 }
 
-/// The bits that glass_is_idle() notes.
-constexpr std::uint8_t lanes_of_all_parts() {
-  std::uint8_t bits = 0;
-  for (std::size_t lane = 0; lane < kRuns; lane += kLanes) bits |= static_cast<std::uint8_t>(1u << lane);
-  return bits;
-}
-
-template <SideKind kind, bool bending>
+template <PairKind kind, bool bending>
 void advance(SidePairs& pairs, SideBeads& beads, const SideLaw& law, LawParts parts, SideTotals& totals,
              std::vector<SideBreak>& breaking) {
-  constexpr bool may_touch = kind != SideKind::apart;
+  constexpr bool may_touch = kind != PairKind::apart;
   const WholeLanes::Tag tag;
   Constants given[kParts];
   Losses losses[kParts];
@@ -114,8 +98,7 @@ void advance(SidePairs& pairs, SideBeads& beads, const SideLaw& law, LawParts pa
   SideBead* const motion = beads.motion.data();
   SideSums* const sums = beads.sums.data();
   for (std::size_t p = 0; p < pairs.ends.size(); ++p) {
-    if (kind == SideKind::loose) {
-      constexpr std::uint8_t kAllLanes = lanes_of_all_parts();
+    if (kind == PairKind::loose) {
       if (were_apart[p] == kAllLanes && all_apart(motion[ends[p].i], motion[ends[p].j], contacts[p])) continue;
     }
     for (std::size_t part = 0, lane = 0; part < kParts; ++part, lane += kLanes) {
@@ -146,15 +129,15 @@ void advance(SidePairs& pairs, SideBeads& beads, const SideLaw& law, LawParts pa
 }
 
 template <bool bending>
-void advance(SidePairs& pairs, SideKind kind, SideBeads& beads, const SideLaw& law, LawParts parts,
+void advance(SidePairs& pairs, PairKind kind, SideBeads& beads, const SideLaw& law, LawParts parts,
              SideTotals& totals, std::vector<SideBreak>& breaking) {
-  const auto of = kind == SideKind::apart       ? advance<SideKind::apart, bending>
-                  : kind == SideKind::touchable ? advance<SideKind::touchable, bending>
-                                                : advance<SideKind::loose, bending>;
+  const auto of = kind == PairKind::apart       ? advance<PairKind::apart, bending>
+                  : kind == PairKind::touchable ? advance<PairKind::touchable, bending>
+                                                : advance<PairKind::loose, bending>;
   of(pairs, beads, law, parts, totals, breaking);
 }
 
-void AdvanceSideBySide(SidePairs& pairs, SideKind kind, SideBeads& beads, const SideLaw& law, LawParts parts,
+void AdvanceSideBySide(SidePairs& pairs, PairKind kind, SideBeads& beads, const SideLaw& law, LawParts parts,
                        SideTotals& totals, std::vector<SideBreak>& breaking) {
   const auto of = parts.bending ? advance<true> : advance<false>;
   of(pairs, kind, beads, law, parts, totals, breaking);
@@ -212,7 +195,7 @@ HWY_EXPORT(AdvanceSideBySide);
 HWY_EXPORT(MoveSideBySide);
 }  // namespace
 
-void advance_side_by_side(SidePairs& pairs, SideKind kind, SideBeads& beads, const SideLaw& law,
+void advance_side_by_side(SidePairs& pairs, PairKind kind, SideBeads& beads, const SideLaw& law,
                           LawParts parts, SideTotals& totals, std::vector<SideBreak>& breaking) {
   HWY_DYNAMIC_DISPATCH(AdvanceSideBySide)(pairs, kind, beads, law, parts, totals, breaking);
 }

@@ -12,7 +12,7 @@ namespace pendular::dem_core {
 
 /// Advances pairs: springs, losses, breaks; adds their forces to the sums. Loose pairs that are apart in all
 /// runs, and were, are passed over: they neither do nor remember anything.
-void advance_side_by_side(SidePairs& pairs, SideKind kind, SideBeads& beads, const SideLaw& law,
+void advance_side_by_side(SidePairs& pairs, PairKind kind, SideBeads& beads, const SideLaw& law,
                           LawParts parts, SideTotals& totals, std::vector<SideBreak>& breaking);
 
 /// Moves the beads by their sums, and clears these.

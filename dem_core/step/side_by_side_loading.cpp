@@ -25,23 +25,23 @@ std::vector<IndexPair> pairs_of_all(std::span<Simulation* const> simulations) {
 }
 
 /// Appends a pair; returns its place.
-std::size_t append(SidePairs& pairs, SidePairs::Ends ends, SideKind kind, bool bending) {
+std::size_t append(SidePairs& pairs, SidePairs::Ends ends, PairKind kind, bool bending) {
   pairs.ends.push_back(ends);
   pairs.columns.push_back({});
-  if (kind != SideKind::apart) pairs.contacts.push_back({}), pairs.apart.push_back(0);
+  if (kind != PairKind::apart) pairs.contacts.push_back({}), pairs.apart.push_back(0);
   if (bending) pairs.bends.push_back({});
   return pairs.ends.size() - 1;
 }
 
-SideKind kind_of(const Pair& pair, bool may_touch) {
-  return pair.bond < 0 ? SideKind::loose : may_touch ? SideKind::touchable : SideKind::apart;
+PairKind kind_of(const Pair& pair, bool may_touch) {
+  return pair.bond < 0 ? PairKind::loose : may_touch ? PairKind::touchable : PairKind::apart;
 }
 
 /// Of a pair that has these kinds in two runs.
-SideKind of_both(SideKind a, SideKind b) {
+PairKind of_both(PairKind a, PairKind b) {
   if (a == b) return a;
   // Only bonds whose glass cannot touch in any run are apart; pairs not listed by a run cannot touch there.
-  return SideKind::touchable;
+  return PairKind::touchable;
 }
 
 }  // namespace
@@ -184,7 +184,7 @@ void SideBySide::load_places() {
 
 PairPlace SideBySide::in_table(const Place& place) {
   SidePairs& pairs = table(place.kind);
-  return {&pairs.columns[place.at], place.kind == SideKind::apart ? nullptr : &pairs.contacts[place.at],
+  return {&pairs.columns[place.at], place.kind == PairKind::apart ? nullptr : &pairs.contacts[place.at],
           parts_.bending ? &pairs.bends[place.at] : nullptr};
 }
 
@@ -212,11 +212,11 @@ void SideBySide::list_anew(std::size_t run) {
   std::vector<Place> missing;
   auto place = places_.begin();
   for (std::size_t p = 0; p < may_touch.size(); ++p) {
-    const Place wanted = {simulation.pairs[p].i, simulation.pairs[p].j, SideKind::loose, 0};
+    const Place wanted = {simulation.pairs[p].i, simulation.pairs[p].j, PairKind::loose, 0};
     while (place != places_.end() && *place < wanted) ++place;
     if (place == places_.end() || wanted < *place)
       missing.push_back(wanted);
-    else if (may_touch[p] && place->kind == SideKind::apart)
+    else if (may_touch[p] && place->kind == PairKind::apart)
       let_touch(*place);
   }
   for (Place& one : missing)
@@ -236,9 +236,9 @@ void SideBySide::list_anew(std::size_t run) {
 /// Moves a pair to those that may touch. Its glass is apart as yet; in its old place a pair stays that never
 /// acts.
 void SideBySide::let_touch(Place& place) {
-  SidePairs &apart = table(SideKind::apart), &touching = table(SideKind::touchable);
+  SidePairs &apart = table(PairKind::apart), &touching = table(PairKind::touchable);
   const std::size_t before = place.at;
-  place.kind = SideKind::touchable;
+  place.kind = PairKind::touchable;
   place.at = append(touching, apart.ends[before], place.kind, parts_.bending);
   touching.columns[place.at] = std::exchange(apart.columns[before], {});
   if (parts_.bending) touching.bends[place.at] = std::exchange(apart.bends[before], {});

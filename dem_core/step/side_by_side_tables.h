@@ -45,13 +45,6 @@ struct SidePairs {
   std::vector<std::uint8_t> apart;       ///< of these, in which lanes it was apart in the last step
 };
 
-/// What the pairs of a table have in common.
-enum class SideKind {
-  apart,      ///< bonds in some run; glass that cannot touch in any before the next listing
-  touchable,  ///< bonds in some run; glass that may touch
-  loose       ///< no bond in any run
-};
-
 /// A platen in each run.
 struct SidePlaten {
   AlignedVector<PlatenColumns> beads;  ///< of every row

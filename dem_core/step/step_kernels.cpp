@@ -147,9 +147,61 @@ HWY_INLINE LaneMask advance_batch(PairColumns& block, ContactBlock* contact, Ben
   return breaking;
 }
 
-template <bool may_touch, bool bending>
-void advance(PairTable& pairs, BeadTable& beads, std::size_t first, std::size_t last,
-             const LawNumbers<double>& law, LawParts parts, const PerQuantum& per, Chunk& chunk) {
+/// Whether no pair of a loose block does or remembers anything.
+HWY_INLINE bool is_idle(const PairBlock& block, const ReachBlock& reach, std::uint8_t glass_apart,
+                        const BeadTable& beads) {
+  if (glass_apart != kAllLanes) return false;
+  bool apart = true;
+  for (std::size_t lane = 0; lane < kBlock; lane += kLanes) {
+    const Triple<Lanes> way = differences(beads.motion.data(), block.i + lane, block.j + lane).xyz;
+    apart &= !any(load(reach.squared + lane) >= dot(way, way));
+  }
+  return apart;
+}
+
+/// The blocks of one kind, from `first` to `last`.
+template <PairKind kind, bool bending>
+void advance(PairTable& pairs, BeadTable& beads, std::size_t first, std::size_t last, const Constants& given,
+             Chunk& chunk, Losses& losses) {
+  constexpr bool may_touch = kind != PairKind::apart;
+  PairBlock* const blocks = pairs.blocks.data();
+  ContactBlock* const contacts = pairs.contacts.data() + chunk.first_contact;
+  std::uint8_t* const glass_apart = pairs.glass_apart.data() + chunk.first_contact;
+  BendBlock* const bends = pairs.bends.data();
+  Batch batch;
+  for (std::size_t next = first; next < last;) {
+    std::size_t taken[kBatch], count = 0;
+    for (; next < last && count < kBatch; ++next)
+      if (kind != PairKind::loose || !is_idle(blocks[next], pairs.reaches[chunk.first_reach + next - first],
+                                              glass_apart[next - chunk.touchable], beads))
+        taken[count++] = next;
+    const auto for_lanes = [&](const auto& body) {
+      for (std::size_t n = 0, at = 0; n < count; ++n)
+        for (std::size_t lane = 0; lane < kBlock; lane += kLanes, at += kLanes) body(taken[n], lane, at);
+    };
+    for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
+      read_motion<bending>(blocks[b], lane, beads, given.law, batch, at);
+    });
+    for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
+      const std::size_t c = b - chunk.touchable;
+      BendBlock* const bend = bending ? bends + b : nullptr;
+      LaneMask breaking;
+      if (!may_touch || glass_is_idle(load(batch.gap + at), contacts[c], lane, glass_apart[c]))
+        breaking = advance_batch<false, bending>(blocks[b].columns, nullptr, bend, lane, given, batch, at, losses);
+      else
+        breaking =
+            advance_batch<true, bending>(blocks[b].columns, contacts + c, bend, lane, given, batch, at, losses);
+      if (any(breaking)) note_breaks(breaking, kBlock * b + lane, chunk);
+    });
+    for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
+      add_to_beads<bending>(blocks[b], lane, batch, at, given.per, beads.sums.data());
+    });
+  }
+}
+
+template <bool bending>
+void advance(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<double>& law,
+             LawParts parts, const PerQuantum& per) {
   const WholeLanes::Tag tag;
   const Lanes zero = {hn::Zero(Lanes::Tag())};
   const Constants given = {
@@ -158,38 +210,11 @@ void advance(PairTable& pairs, BeadTable& beads, std::size_t first, std::size_t 
       parts,
       {same(per.force, zero), same(per.torque, zero), same(per.energy, zero)}};
   Losses losses = {{hn::Zero(tag)}, {hn::Zero(tag)}};
-  PairBlock* const blocks = pairs.blocks.data();
-  ContactBlock* const contacts = pairs.contacts.data();
-  BendBlock* const bends = pairs.bends.data();
-  Batch batch;
-  for (std::size_t begin = first; begin < last; begin += kBatch) {
-    const std::size_t end = std::min(begin + kBatch, last);
-    const auto for_lanes = [&](const auto& body) {
-      for (std::size_t b = begin, at = 0; b < end; ++b)
-        for (std::size_t lane = 0; lane < kBlock; lane += kLanes, at += kLanes) body(b, lane, at);
-    };
-    for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
-      read_motion<bending>(blocks[b], lane, beads, given.law, batch, at);
-    });
-    for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
-      const LaneMask breaking = advance_batch<may_touch, bending>(
-          blocks[b].columns, may_touch ? contacts + (chunk.first_contact + b - chunk.touchable) : nullptr,
-          bending ? bends + b : nullptr, lane, given, batch, at, losses);
-      if (any(breaking)) note_breaks(breaking, kBlock * b + lane, chunk);
-    });
-    for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
-      add_to_beads<bending>(blocks[b], lane, batch, at, given.per, beads.sums.data());
-    });
-  }
+  advance<PairKind::apart, bending>(pairs, beads, chunk.first_block, chunk.touchable, given, chunk, losses);
+  advance<PairKind::touchable, bending>(pairs, beads, chunk.touchable, chunk.loose, given, chunk, losses);
+  advance<PairKind::loose, bending>(pairs, beads, chunk.loose, chunk.last_block, given, chunk, losses);
   add(chunk.damped, hn::GetLane(hn::SumOfLanes(tag, losses.damped.v)));
   add(chunk.slipped, hn::GetLane(hn::SumOfLanes(tag, losses.slipped.v)));
-}
-
-template <bool bending>
-void advance(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<double>& law,
-             LawParts parts, const PerQuantum& per) {
-  advance<false, bending>(pairs, beads, chunk.first_block, chunk.touchable, law, parts, per, chunk);
-  advance<true, bending>(pairs, beads, chunk.touchable, chunk.last_block, law, parts, per, chunk);
 }
 
 void AdvancePairs(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<double>& law,

@@ -51,10 +51,24 @@ struct alignas(64) PlatenBlock {
   PlatenColumns columns;
 };
 
+/// What pairs that stand together in a table have in common.
+enum class PairKind {
+  apart,      ///< bonds whose glass cannot touch before the next listing
+  touchable,  ///< bonds whose glass may
+  loose       ///< without a bond
+};
+
+/// Squares of the distances at which the glass of eight pairs touches, and a billionth more.
+struct alignas(64) ReachBlock {
+  BlockOf<double> squared;
+};
+
 struct PairTable {
   AlignedVector<PairBlock> blocks;
-  AlignedVector<ContactBlock> contacts;  ///< of the chunks' touchable blocks, one after the other
-  AlignedVector<BendBlock> bends;        ///< of all blocks, where the law has bending
+  AlignedVector<ContactBlock> contacts;   ///< of the chunks' blocks whose glass may touch, one after the other
+  std::vector<std::uint8_t> glass_apart;  ///< of these, in which lanes it was apart in the last step
+  AlignedVector<ReachBlock> reaches;      ///< of the chunks' loose blocks, one after the other
+  AlignedVector<BendBlock> bends;         ///< of all blocks, where the law has bending
 };
 
 /// Numbers in a row of a bead's motion, spin or sums: a cache line.
@@ -83,9 +97,10 @@ struct BeadTable {
 /// its two rows, so a chunk reads and adds to its own beads and those of some later chunks only.
 struct Chunk {
   std::size_t first_bead = 0, last_bead = 0;
-  std::size_t first_block = 0;                ///< bonds whose glass cannot touch before the next listing
-  std::size_t touchable = 0, last_block = 0;  ///< the rest
-  std::size_t first_contact = 0;              ///< contact block of the first touchable block
+  std::size_t first_block = 0;                            ///< of pairs whose kind is apart
+  std::size_t touchable = 0, loose = 0, last_block = 0;  ///< of the other kinds
+  std::size_t first_contact = 0;  ///< contact block of the first touchable block
+  std::size_t first_reach = 0;    ///< reach block of the first loose block
   /// Sums that earlier chunks have made for beads of this one.
   struct Incoming {
     std::uint32_t from, to;

@@ -31,6 +31,25 @@ void append_apart(std::span<const std::size_t> ordered, std::vector<std::int64_t
   }
 }
 
+/// In which of a chunk's groups a pair stands: of a kind, bonds whose glass touches after those whose glass is
+/// apart, so that blocks are of either.
+enum Group : std::size_t { kApart, kResting, kTouching, kLoose, kGroups };
+
+std::vector<Group> groups_of(const Simulation& simulation) {
+  const std::vector<char> may_touch = touchable(simulation);
+  std::vector<Group> found(may_touch.size());
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    const Pair& pair = simulation.pairs[p];
+    if (pair.bond < 0)
+      found[p] = kLoose;
+    else if (!may_touch[p])
+      found[p] = kApart;
+    else
+      found[p] = gap(simulation, pair) > pair.properties.touch ? kResting : kTouching;
+  }
+  return found;
+}
+
 }  // namespace
 
 void Stepper::order_beads() {
@@ -64,36 +83,38 @@ void Stepper::load_beads() {
   }
 }
 
-/// Cuts the rows of beads into chunks and gives each pair to the chunk of its first row. A chunk's pairs are
-/// in the order of their first rows, those that cannot touch before those that may.
+/// Cuts the rows of beads into chunks and gives each pair to the chunk of its first row. In a group pairs are in
+/// the order of their first rows.
 void Stepper::cut_chunks() {
   const auto& pairs = simulation_.pairs;
   const std::size_t chunks = (beads_.size + kBeadsPerChunk - 1) / kBeadsPerChunk;
-  const std::vector<char> may_touch = touchable(simulation_);
+  const std::vector<Group> group = groups_of(simulation_);
   std::vector<std::size_t> place(pairs.size());
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const auto row = static_cast<std::size_t>(std::min(row_of_[pairs[p].i], row_of_[pairs[p].j]));
-    place[p] = (row / kBeadsPerChunk * 2 + may_touch[p]) * kBeadsPerChunk + row % kBeadsPerChunk;
+    place[p] = (row / kBeadsPerChunk * kGroups + group[p]) * kBeadsPerChunk + row % kBeadsPerChunk;
   }
-  const auto [first, ordered] = sort_by_number(place, 2 * chunks * kBeadsPerChunk);
+  const auto [first, ordered] = sort_by_number(place, kGroups * chunks * kBeadsPerChunk);
 
   chunks_.assign(chunks, {});
   pair_of_.clear();
-  const auto append = [&, &first = first, &ordered = ordered](std::size_t group) {
-    const std::size_t from = first[group * kBeadsPerChunk], to = first[(group + 1) * kBeadsPerChunk];
-    append_apart(std::span(ordered).subspan(from, to - from), pair_of_);
-    return pair_of_.size() / kBlock;
-  };
-  std::size_t contacts = 0;
+  std::size_t contacts = 0, reaches = 0;
   for (std::size_t c = 0; c < chunks; ++c) {
+    std::size_t begin[kGroups + 1];
+    for (std::size_t g = 0; g < kGroups; ++g) {
+      begin[g] = pair_of_.size() / kBlock;
+      const std::size_t from = first[(c * kGroups + g) * kBeadsPerChunk],
+                        to = first[(c * kGroups + g + 1) * kBeadsPerChunk];
+      append_apart(std::span(ordered).subspan(from, to - from), pair_of_);
+    }
+    begin[kGroups] = pair_of_.size() / kBlock;
     Chunk& chunk = chunks_[c];
     chunk.first_bead = c * kBeadsPerChunk;
     chunk.last_bead = std::min(beads_.size, chunk.first_bead + kBeadsPerChunk);
-    chunk.first_block = pair_of_.size() / kBlock;
-    chunk.touchable = append(2 * c);
-    chunk.last_block = append(2 * c + 1);
-    chunk.first_contact = contacts;
-    contacts += chunk.last_block - chunk.touchable;
+    chunk.first_block = begin[kApart], chunk.touchable = begin[kResting], chunk.loose = begin[kLoose];
+    chunk.last_block = begin[kGroups];
+    chunk.first_contact = contacts, chunk.first_reach = reaches;
+    contacts += chunk.last_block - chunk.touchable, reaches += chunk.last_block - chunk.loose;
   }
 }
 
@@ -106,6 +127,8 @@ void Stepper::load_pairs() {
   pairs_.bends.assign(simulation_.law.bending ? pairs_.blocks.size() : 0, BendBlock{});
   const Chunk& last = chunks_.back();
   pairs_.contacts.assign(last.first_contact + last.last_block - last.touchable, ContactBlock{});
+  pairs_.glass_apart.assign(pairs_.contacts.size(), 0);
+  pairs_.reaches.assign(last.first_reach + last.last_block - last.loose, ReachBlock{});
   for_pairs([&](const Chunk& chunk, std::size_t p) { load_pair(chunk, p); });
 }
 
@@ -136,6 +159,9 @@ void Stepper::load_pair(const Chunk& chunk, std::size_t p) {
   PairBlock& block = pairs_.blocks[p / kBlock];
   block.i[at] = kBeadRow * row_of_[pair.i], block.j[at] = kBeadRow * row_of_[pair.j];
   put_pair(pair, {&block.columns, contact_of(chunk, p), bend_of(p)}, at);
+  if (p / kBlock < chunk.loose) return;
+  const double reach = simulation_.beads.radius[pair.i] + simulation_.beads.radius[pair.j] + pair.properties.touch;
+  pairs_.reaches[chunk.first_reach + p / kBlock - chunk.loose].squared[at] = (1.0 + 1e-9) * reach * reach;
 }
 
 void Stepper::store_pair(const Chunk& chunk, std::size_t p) {
