@@ -1,6 +1,6 @@
-// Runs of a bank side by side in the lanes of a register, beside one run alone on one thread, in turns: a small
-// packing whose beads are moved by 0.1 um and whose bonds differ in stiffness from run to run, under load,
-// pairs listed anew as they come.
+// Runs of a bank side by side in the lanes of a register, beside one run alone on one thread, in turns: a
+// small packing whose beads are moved by 0.1 um and whose bonds differ in stiffness from run to run, under
+// load, pairs listed anew as they come.
 //
 //   cmake --build --preset bench --target side_by_side_bench && build-bench/bench/side_by_side_bench
 
@@ -84,9 +84,11 @@ void compare(const std::vector<Simulation>& loaded, const std::string& instructi
   }
   std::sort(alone.begin(), alone.end());
   std::sort(together.begin(), together.end());
-  fmt::print("{}: {} beads, {} pairs, medians in M particle-steps/s: alone {:.1f}, side by side {:.1f}, ratio {:.2f}\n",
-             instruction_set, beads, loaded.front().pairs.size(), alone[kRepeats / 2], together[kRepeats / 2],
-             together[kRepeats / 2] / alone[kRepeats / 2]);
+  fmt::print(
+      "{}: {} beads, {} pairs, medians in M particle-steps/s: alone {:.1f}, side by side {:.1f}, ratio "
+      "{:.2f}\n",
+      instruction_set, beads, loaded.front().pairs.size(), alone[kRepeats / 2], together[kRepeats / 2],
+      together[kRepeats / 2] / alone[kRepeats / 2]);
 }
 
 }  // namespace

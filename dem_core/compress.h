@@ -68,10 +68,10 @@ using CompressEnded = std::function<void(std::size_t task, const CompressOutcome
 /// So many tasks at most can be made side by side.
 inline constexpr std::size_t kMostSideBySide = 8;
 
-/// The first task, and of the others those that can be made beside it in the lanes of a register (SideBySide),
-/// on one thread: the same bytes as from compress(), in two thirds of the time where eight are made. Tells of
-/// each as it ends; of tasks that it does not make, nothing. Interrupted by the user it keeps a checkpoint of
-/// each and throws Interrupted.
+/// The first task, and of the others those that can be made beside it in the lanes of a register
+/// (SideBySide), on one thread: the same bytes as from compress(), in two thirds of the time where eight are
+/// made. Tells of each as it ends; of tasks that it does not make, nothing. Interrupted by the user it keeps
+/// a checkpoint of each and throws Interrupted.
 void compress_side_by_side(std::span<const CompressTask> tasks, const CompressEnded& ended);
 
 }  // namespace pendular::dem_core

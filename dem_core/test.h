@@ -24,8 +24,8 @@ class Test {
   /// Lets bonds change, and books the step. ComputationFailed where motion has diverged.
   void after_step();
 
-  /// Instead of both, where the sample asks for relaxation: an increment and its row. Interrupted on its way it
-  /// leaves the state as it was before.
+  /// Instead of both, where the sample asks for relaxation: an increment and its row. Interrupted on its way
+  /// it leaves the state as it was before.
   void relax(Stepper& stepper);
 
   /// Makes the simulation true, for a checkpoint.

@@ -54,7 +54,8 @@ class Children {
         hashes.push_back(hash);
     std::size_t open = hashes.size();
     for (const auto& child : children_) open += child.hashes.size();
-    const std::size_t share = std::min({dem_core::kMostSideBySide, hashes.size(), (open + cores - 1) / cores});
+    const std::size_t share =
+        std::min({dem_core::kMostSideBySide, hashes.size(), (open + cores - 1) / cores});
     hashes.resize(share >= kLeastSideBySide ? share : 1);
 
     std::vector<std::string> words = {fs::absolute(store_.folder()).string()};

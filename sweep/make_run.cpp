@@ -152,7 +152,8 @@ void conclude(Store& store, const Making& making, const dem_core::CompressResult
   book(store, making.hash, making.request, effort);
 }
 
-/// Does part of a run's work. A failure is recorded in the store and thrown; interrupted, the run waits again.
+/// Does part of a run's work. A failure is recorded in the store and thrown; interrupted, the run waits
+/// again.
 template <typename Work>
 void recorded(Store& store, const std::string& hash, const Work& work) {
   try {

@@ -12,10 +12,10 @@ namespace pendular::sweep {
 /// recorded in the store and thrown; interrupted, the run waits again with its checkpoint kept.
 void make_run(Store& store, const std::string& hash);
 
-/// Makes runs side by side in the lanes of a register, on one thread: the first that is to be made, and those of
-/// the others that suit it; the rest wait again. The bytes are those of make_run(). A failure is recorded in the
-/// store and stops no other run; interrupted, all wait again with their checkpoints kept, and Interrupted is
-/// thrown.
+/// Makes runs side by side in the lanes of a register, on one thread: the first that is to be made, and those
+/// of the others that suit it; the rest wait again. The bytes are those of make_run(). A failure is recorded
+/// in the store and stops no other run; interrupted, all wait again with their checkpoints kept, and
+/// Interrupted is thrown.
 void make_side_by_side(Store& store, std::span<const std::string> hashes);
 
 /// The command that a run's files name as theirs.

@@ -79,10 +79,10 @@ struct PlatenMemory {
 /// What a platen does to a bead in one step.
 template <typename Real>
 struct PlatenAction {
-  Triple<Real> force;        ///< on the bead
-  Real torque_x, torque_y;   ///< on the bead
-  Real normal;               ///< on the platen
-  Real damped, slipped;      ///< energy lost in the step, J
+  Triple<Real> force;       ///< on the bead
+  Real torque_x, torque_y;  ///< on the bead
+  Real normal;              ///< on the platen
+  Real damped, slipped;     ///< energy lost in the step, J
 };
 
 /// What the law of a specimen is made of.

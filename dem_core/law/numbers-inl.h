@@ -140,7 +140,8 @@ HWY_INLINE void put_nearest_in_48_bits(Lanes a, const Triple<Lanes>& b, Triple<W
 /// The number in the lowest 48 bits.
 template <class D, class V>
 HWY_INLINE hn::Vec<D> from_48_bits(D to, V whole) {
-  constexpr double kLowest = 0x1p52, kShift = 0x1p47;  // from 2^52 on, doubles have whole numbers as last bits
+  constexpr double kLowest = 0x1p52,
+                   kShift = 0x1p47;  // from 2^52 on, doubles have whole numbers as last bits
   const hn::RebindToSigned<D> bits;
   const auto shifted = hn::And(hn::Add(whole, hn::Set(bits, std::int64_t{1} << 47)),
                                hn::Set(bits, (std::int64_t{1} << 48) - 1));

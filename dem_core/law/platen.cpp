@@ -5,8 +5,15 @@
 namespace pendular::dem_core {
 
 PlatenNumbers<double> platen_numbers(const Platen& platen, const LawParameters& law, double dt) {
-  return {platen.z,     platen.velocity,     platen.normal_sign, law.k_glass, law.kt_glass,
-          law.platen_friction, law.damping, dt,                 0.5 * law.damping * dt};
+  return {platen.z,
+          platen.velocity,
+          platen.normal_sign,
+          law.k_glass,
+          law.kt_glass,
+          law.platen_friction,
+          law.damping,
+          dt,
+          0.5 * law.damping * dt};
 }
 
 PlatenForce touch_platen(Platen& platen, std::size_t k, const BeadMotion& bead, const LawParameters& law,

@@ -118,7 +118,8 @@ void get_pair(const PairPlace& from, std::size_t at, Pair& pair) {
   history.closing = columns.closing[at];
   if (const ContactBlock* contact = from.contact)
     history.contact_slip = {contact->slip_x[at], contact->slip_y[at], contact->slip_z[at]};
-  if (const BendBlock* bend = from.bend) history.turn = {bend->turn_x[at], bend->turn_y[at], bend->turn_z[at]};
+  if (const BendBlock* bend = from.bend)
+    history.turn = {bend->turn_x[at], bend->turn_y[at], bend->turn_z[at]};
 }
 
 void put_bead(const Platen& platen, std::size_t bead, PlatenColumns& to, std::size_t at) {

@@ -74,12 +74,13 @@ struct Losses {
   WholeLanes damped, slipped;
 };
 
-/// Advances the pairs of a block from `lane` on. `motion` is read where the law has bending. Returns which bonds
-/// break.
+/// Advances the pairs of a block from `lane` on. `motion` is read where the law has bending. Returns which
+/// bonds break.
 template <bool may_touch, bool bending>
-HWY_INLINE LaneMask advance_lanes(PairColumns& block, ContactBlock* contact, BendBlock* bend, std::size_t lane,
-                                  const Constants& given, const PairApproach<Lanes>& seen,
-                                  const PairMotion<Lanes>& motion, PairAction<Lanes>& action, Losses& losses) {
+HWY_INLINE LaneMask advance_lanes(PairColumns& block, ContactBlock* contact, BendBlock* bend,
+                                  std::size_t lane, const Constants& given, const PairApproach<Lanes>& seen,
+                                  const PairMotion<Lanes>& motion, PairAction<Lanes>& action,
+                                  Losses& losses) {
   const Lanes zero = {hn::Zero(Lanes::Tag())};
   PairData<Lanes> data;
   PairMemory<Lanes> memory;
@@ -121,7 +122,8 @@ HWY_INLINE LaneMask advance_lanes(PairColumns& block, ContactBlock* contact, Ben
 
 /// Whether the glass of these lanes is apart and was in the last step, so that it neither does nor remembers
 /// anything. Notes the first for the next step, in a bit of these lanes.
-HWY_INLINE bool glass_is_idle(Lanes gap, const ContactBlock& contact, std::size_t lane, std::uint8_t& was_apart) {
+HWY_INLINE bool glass_is_idle(Lanes gap, const ContactBlock& contact, std::size_t lane,
+                              std::uint8_t& was_apart) {
   const auto bit = static_cast<std::uint8_t>(1u << lane);
   const bool was = was_apart & bit, apart = !any(gap <= load(contact.touch + lane));
   was_apart = apart ? was_apart | bit : was_apart & ~bit;

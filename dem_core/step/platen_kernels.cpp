@@ -64,9 +64,9 @@ PlatenTotals PressBeads(AlignedVector<PlatenBlock>& near, BeadTable& beads,
   const WholeLanes::Tag tag;
   const Lanes zero = {hn::Zero(Lanes::Tag())};
   const auto all = [&](double value) { return same(value, zero); };
-  const PlatenNumbers<Lanes> given = {
-      all(platen.z),        all(platen.velocity), all(platen.sign), all(platen.k_glass), all(platen.kt_glass),
-      all(platen.friction), all(platen.damping),  all(platen.dt),   all(platen.half_damping_dt)};
+  const PlatenNumbers<Lanes> given = {all(platen.z),       all(platen.velocity), all(platen.sign),
+                                      all(platen.k_glass), all(platen.kt_glass), all(platen.friction),
+                                      all(platen.damping), all(platen.dt),       all(platen.half_damping_dt)};
   const LanesPerQuantum lanes_per = {all(per.force), all(per.torque), all(per.energy)};
   WholeLanes force = {hn::Zero(tag)}, damped = force, slipped = force;
   for (PlatenBlock& block : near)
@@ -96,9 +96,9 @@ void PressSideBySide(SidePlaten& platen, SideBeads& beads, const SideLaw& law, B
   const PlatenNumbers<BlockOf<double>>& of = platen.numbers;
   for (std::size_t lane = 0; lane < kRuns; lane += kLanes) {
     const PlatenNumbers<Lanes> given = {
-        load(of.z + lane),        load(of.velocity + lane), load(of.sign + lane),
-        load(of.k_glass + lane),  load(of.kt_glass + lane), load(of.friction + lane),
-        load(of.damping + lane),  load(of.dt + lane),       load(of.half_damping_dt + lane)};
+        load(of.z + lane),       load(of.velocity + lane), load(of.sign + lane),
+        load(of.k_glass + lane), load(of.kt_glass + lane), load(of.friction + lane),
+        load(of.damping + lane), load(of.dt + lane),       load(of.half_damping_dt + lane)};
     const LanesPerQuantum per = {load(law.per_force + lane), load(law.per_torque + lane),
                                  load(law.per_energy + lane)};
     for (const std::uint32_t row : platen.near) {

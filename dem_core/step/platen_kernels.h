@@ -7,8 +7,8 @@
 
 namespace pendular::dem_core {
 
-// A platen and the beads near it in one step, compiled for several instruction sets: the beads of one specimen,
-// or one bead of several runs at a time.
+// A platen and the beads near it in one step, compiled for several instruction sets: the beads of one
+// specimen, or one bead of several runs at a time.
 
 /// Sums in quanta.
 struct PlatenTotals {

@@ -47,8 +47,7 @@ void SideBySide::break_bonds(const std::vector<SideBreak> (&noted)[3]) {
   for (const PairKind kind : kKinds)
     for (const auto& [at, run] : noted[static_cast<std::size_t>(kind)]) {
       const auto [i, j] = table(kind).ends[at];
-      breaking.push_back(
-          {run, {static_cast<int>(bead_of_[i]), static_cast<int>(bead_of_[j]), kind, at}});
+      breaking.push_back({run, {static_cast<int>(bead_of_[i]), static_cast<int>(bead_of_[j]), kind, at}});
     }
   std::sort(breaking.begin(), breaking.end());
   for (const auto& [run, place] : breaking) {

@@ -17,8 +17,8 @@ namespace pendular::dem_core {
 /// so that nothing is gathered. All have one list of pairs, which is that of each run and more; a pair too
 /// many exerts no force. Each simulation moves bit by bit as it does by a Stepper.
 ///
-/// As with a Stepper, a simulation's platens, sums, events and step count are always true; its beads and pairs
-/// are after store().
+/// As with a Stepper, a simulation's platens, sums, events and step count are always true; its beads and
+/// pairs are after store().
 class SideBySide {
  public:
   /// Whether these can be advanced side by side, and had better be: at most kRuns, with the same parts of the
@@ -92,7 +92,7 @@ class SideBySide {
   std::vector<std::size_t> bead_of_;   ///< row of the tables → bead
   std::vector<std::uint32_t> row_of_;  ///< bead → row
   std::vector<Place> places_;          ///< sorted
-  std::size_t ordered_ = 0;            ///< pairs of the tables when they were loaded; others are at their ends
+  std::size_t ordered_ = 0;  ///< pairs of the tables when they were loaded; others are at their ends
   SideBeads beads_;
   SidePairs tables_[3];  ///< one of each kind
   SideLaw law_ = {};

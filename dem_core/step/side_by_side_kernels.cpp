@@ -30,7 +30,8 @@ HWY_INLINE Triple<Lanes> load(const double* x, const double* y, const double* z,
 }
 
 template <bool bending>
-HWY_INLINE void put_motion(const SideBead& i, const SideBead& j, std::size_t lane, PairMotion<Lanes>& motion) {
+HWY_INLINE void put_motion(const SideBead& i, const SideBead& j, std::size_t lane,
+                           PairMotion<Lanes>& motion) {
   const Lanes radius_i = load(i.radius + lane), radius_j = load(j.radius + lane);
   const Triple<Lanes> spin_i = load(i.wx, i.wy, i.wz, lane), spin_j = load(j.wx, j.wy, j.wz, lane);
   motion.apart = load(i.x, i.y, i.z, lane) - load(j.x, j.y, j.z, lane);
@@ -99,7 +100,8 @@ void advance(SidePairs& pairs, SideBeads& beads, const SideLaw& law, LawParts pa
   SideSums* const sums = beads.sums.data();
   for (std::size_t p = 0; p < pairs.ends.size(); ++p) {
     if (kind == PairKind::loose) {
-      if (were_apart[p] == kAllLanes && all_apart(motion[ends[p].i], motion[ends[p].j], contacts[p])) continue;
+      if (were_apart[p] == kAllLanes && all_apart(motion[ends[p].i], motion[ends[p].j], contacts[p]))
+        continue;
     }
     for (std::size_t part = 0, lane = 0; part < kParts; ++part, lane += kLanes) {
       const SideBead &bead_i = motion[ends[p].i], &bead_j = motion[ends[p].j];

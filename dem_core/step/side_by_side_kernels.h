@@ -7,8 +7,8 @@
 
 namespace pendular::dem_core {
 
-/// The two loops of a time step of several runs, compiled for several instruction sets: operation by operation
-/// those of step_kernels.h, on one pair of all runs at a time.
+/// The two loops of a time step of several runs, compiled for several instruction sets: operation by
+/// operation those of step_kernels.h, on one pair of all runs at a time.
 
 /// Advances pairs: springs, losses, breaks; adds their forces to the sums. Loose pairs that are apart in all
 /// runs, and were, are passed over: they neither do nor remember anything.

@@ -7,7 +7,7 @@
 namespace pendular::dem_core {
 namespace {
 
-constexpr double kMostPairs = 1.2;  // of all runs to those of one: what that costs takes the gain
+constexpr double kMostPairs = 1.2;      // of all runs to those of one: what that costs takes the gain
 constexpr std::size_t kOutOfOrder = 8;  // one pair in so many, and the tables are loaded anew
 
 bool same_parts(const LawParameters& a, const LawParameters& b) {
@@ -130,7 +130,8 @@ void SideBySide::load_platen(std::size_t run, const Platen& from, SidePlaten& pl
   to.k_glass[run] = k_glass, to.kt_glass[run] = kt_glass;
   to.friction[run] = friction, to.damping[run] = damping;
   to.dt[run] = dt, to.half_damping_dt[run] = half_damping_dt;
-  for (std::size_t row = 0; row < bead_of_.size(); ++row) put_bead(from, bead_of_[row], platen.beads[row], run);
+  for (std::size_t row = 0; row < bead_of_.size(); ++row)
+    put_bead(from, bead_of_[row], platen.beads[row], run);
 }
 
 void SideBySide::load_listing(std::size_t run) {
@@ -286,8 +287,8 @@ void SideBySide::stop(std::size_t run) {
     number[run] = 0.0;
   for (SidePlaten* platen : {&bottom_, &top_}) {
     auto& numbers = platen->numbers;
-    for (double* number : {numbers.k_glass, numbers.kt_glass, numbers.damping, numbers.dt,
-                           numbers.half_damping_dt})
+    for (double* number :
+         {numbers.k_glass, numbers.kt_glass, numbers.damping, numbers.dt, numbers.half_damping_dt})
       number[run] = 0.0;
   }
   runs_[run] = nullptr;

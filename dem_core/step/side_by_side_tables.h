@@ -61,7 +61,7 @@ struct alignas(64) SideLaw {
 /// What one step adds to the sums of each run.
 struct alignas(64) SideTotals {
   BlockOf<std::int64_t> damped, slipped, bottom, top;  ///< in quanta
-  BlockOf<float> farthest_x, farthest_y, farthest_z;  ///< largest displacement over margin since listing
+  BlockOf<float> farthest_x, farthest_y, farthest_z;   ///< largest displacement over margin since listing
 };
 
 /// A bond that breaks.

@@ -130,18 +130,19 @@ void note_breaks(LaneMask breaking, std::size_t first, Chunk& chunk) {
     if (flags[lane] != 0.0) chunk.breaking.push_back(static_cast<std::uint32_t>(first + lane));
 }
 
-/// Advances the pairs of a block from `lane` on, whose columns of the batch begin at `at`. Returns which bonds
-/// break.
+/// Advances the pairs of a block from `lane` on, whose columns of the batch begin at `at`. Returns which
+/// bonds break.
 template <bool may_touch, bool bending>
-HWY_INLINE LaneMask advance_batch(PairColumns& block, ContactBlock* contact, BendBlock* bend, std::size_t lane,
-                                  const Constants& given, Batch& batch, std::size_t at, Losses& losses) {
+HWY_INLINE LaneMask advance_batch(PairColumns& block, ContactBlock* contact, BendBlock* bend,
+                                  std::size_t lane, const Constants& given, Batch& batch, std::size_t at,
+                                  Losses& losses) {
   const PairApproach<Lanes> seen = {load(batch.n, at), load(batch.sliding, at), load(batch.gap + at),
                                     load(batch.closing + at), load(batch.twist + at)};
   PairMotion<Lanes> motion;
   if (bending) motion.spin = load(batch.spin, at), motion.turning = load(batch.turning, at);
   PairAction<Lanes> action;
-  const LaneMask breaking = advance_lanes<may_touch, bending>(block, contact, bend, lane, given, seen, motion,
-                                                              action, losses);
+  const LaneMask breaking =
+      advance_lanes<may_touch, bending>(block, contact, bend, lane, given, seen, motion, action, losses);
   store(action.force, batch.force, at), store(action.couple, batch.couple, at);
   if (bending) store(action.moment, batch.moment, at);
   return breaking;
@@ -187,10 +188,11 @@ void advance(PairTable& pairs, BeadTable& beads, std::size_t first, std::size_t 
       BendBlock* const bend = bending ? bends + b : nullptr;
       LaneMask breaking;
       if (!may_touch || glass_is_idle(load(batch.gap + at), contacts[c], lane, glass_apart[c]))
-        breaking = advance_batch<false, bending>(blocks[b].columns, nullptr, bend, lane, given, batch, at, losses);
-      else
         breaking =
-            advance_batch<true, bending>(blocks[b].columns, contacts + c, bend, lane, given, batch, at, losses);
+            advance_batch<false, bending>(blocks[b].columns, nullptr, bend, lane, given, batch, at, losses);
+      else
+        breaking = advance_batch<true, bending>(blocks[b].columns, contacts + c, bend, lane, given, batch, at,
+                                                losses);
       if (any(breaking)) note_breaks(breaking, kBlock * b + lane, chunk);
     });
     for_lanes([&](std::size_t b, std::size_t lane, std::size_t at) {
@@ -200,8 +202,8 @@ void advance(PairTable& pairs, BeadTable& beads, std::size_t first, std::size_t 
 }
 
 template <bool bending>
-void advance(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<double>& law,
-             LawParts parts, const PerQuantum& per) {
+void advance(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<double>& law, LawParts parts,
+             const PerQuantum& per) {
   const WholeLanes::Tag tag;
   const Lanes zero = {hn::Zero(Lanes::Tag())};
   const Constants given = {

@@ -44,8 +44,8 @@ struct alignas(64) PlatenColumns {
   BlockOf<double> relief, slip_x, slip_y, closing;
 };
 
-/// Eight beads that a platen may touch before the next listing. Those that fill a block up lie back from it by
-/// a metre.
+/// Eight beads that a platen may touch before the next listing. Those that fill a block up lie back from it
+/// by a metre.
 struct alignas(64) PlatenBlock {
   BlockOf<std::uint32_t> row;  ///< where their rows begin in BeadTable
   PlatenColumns columns;
@@ -65,7 +65,7 @@ struct alignas(64) ReachBlock {
 
 struct PairTable {
   AlignedVector<PairBlock> blocks;
-  AlignedVector<ContactBlock> contacts;   ///< of the chunks' blocks whose glass may touch, one after the other
+  AlignedVector<ContactBlock> contacts;  ///< of the chunks' blocks whose glass may touch, one after the other
   std::vector<std::uint8_t> glass_apart;  ///< of these, in which lanes it was apart in the last step
   AlignedVector<ReachBlock> reaches;      ///< of the chunks' loose blocks, one after the other
   AlignedVector<BendBlock> bends;         ///< of all blocks, where the law has bending
@@ -97,10 +97,10 @@ struct BeadTable {
 /// its two rows, so a chunk reads and adds to its own beads and those of some later chunks only.
 struct Chunk {
   std::size_t first_bead = 0, last_bead = 0;
-  std::size_t first_block = 0;                            ///< of pairs whose kind is apart
+  std::size_t first_block = 0;                           ///< of pairs whose kind is apart
   std::size_t touchable = 0, loose = 0, last_block = 0;  ///< of the other kinds
-  std::size_t first_contact = 0;  ///< contact block of the first touchable block
-  std::size_t first_reach = 0;    ///< reach block of the first loose block
+  std::size_t first_contact = 0;                         ///< contact block of the first touchable block
+  std::size_t first_reach = 0;                           ///< reach block of the first loose block
   /// Sums that earlier chunks have made for beads of this one.
   struct Incoming {
     std::uint32_t from, to;

@@ -31,8 +31,8 @@ void append_apart(std::span<const std::size_t> ordered, std::vector<std::int64_t
   }
 }
 
-/// In which of a chunk's groups a pair stands: of a kind, bonds whose glass touches after those whose glass is
-/// apart, so that blocks are of either.
+/// In which of a chunk's groups a pair stands: of a kind, bonds whose glass touches after those whose glass
+/// is apart, so that blocks are of either.
 enum Group : std::size_t { kApart, kResting, kTouching, kLoose, kGroups };
 
 std::vector<Group> groups_of(const Simulation& simulation) {
@@ -83,8 +83,8 @@ void Stepper::load_beads() {
   }
 }
 
-/// Cuts the rows of beads into chunks and gives each pair to the chunk of its first row. In a group pairs are in
-/// the order of their first rows.
+/// Cuts the rows of beads into chunks and gives each pair to the chunk of its first row. In a group pairs are
+/// in the order of their first rows.
 void Stepper::cut_chunks() {
   const auto& pairs = simulation_.pairs;
   const std::size_t chunks = (beads_.size + kBeadsPerChunk - 1) / kBeadsPerChunk;
@@ -160,7 +160,8 @@ void Stepper::load_pair(const Chunk& chunk, std::size_t p) {
   block.i[at] = kBeadRow * row_of_[pair.i], block.j[at] = kBeadRow * row_of_[pair.j];
   put_pair(pair, {&block.columns, contact_of(chunk, p), bend_of(p)}, at);
   if (p / kBlock < chunk.loose) return;
-  const double reach = simulation_.beads.radius[pair.i] + simulation_.beads.radius[pair.j] + pair.properties.touch;
+  const double reach =
+      simulation_.beads.radius[pair.i] + simulation_.beads.radius[pair.j] + pair.properties.touch;
   pairs_.reaches[chunk.first_reach + p / kBlock - chunk.loose].squared[at] = (1.0 + 1e-9) * reach * reach;
 }
 

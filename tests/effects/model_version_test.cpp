@@ -58,8 +58,8 @@ std::map<std::string, std::vector<Row>> computed() {
   one.contact.bond_friction_limit = !one.contact.bond_friction_limit;
   add(runs, "other_law", packing, one);
   for (const auto& effect : all_effects()) {
-    // Bonds are to break; but stressed before the test weak ones break at once, and loose beads' motion depends
-    // on every digit.
+    // Bonds are to break; but stressed before the test weak ones break at once, and loose beads' motion
+    // depends on every digit.
     Sample with = effect.id == "residual_stress" ? strong : weak;
     with.bridges.polymer_content = 0.04;
     with.effects[effect.id] = 0.5 * effect.bank_to;

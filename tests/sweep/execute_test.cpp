@@ -154,8 +154,9 @@ TEST(Execute, RunsSideBySideAreThoseMadeAlone) {
   options.cores = 1;
   const auto found = execute(together, family(), options);
   // A process that makes several and dies leaves them to processes of their own.
-  write_text(folder / "frail", fmt::format("#!/bin/sh\nif [ $# -gt 5 ]; then kill -9 $$; fi\nexec '{}' \"$@\"\n",
-                                           pendular::test::program()));
+  write_text(folder / "frail",
+             fmt::format("#!/bin/sh\nif [ $# -gt 5 ]; then kill -9 $$; fi\nexec '{}' \"$@\"\n",
+                         pendular::test::program()));
   fs::permissions(folder / "frail", fs::perms::owner_all);
   options.worker = {folder / "frail", {"sweep-run"}};
   const auto after = execute(killed, family(), options);
@@ -171,7 +172,8 @@ TEST(Execute, RunsSideBySideAreThoseMadeAlone) {
   EXPECT_EQ(test::run_bytes(folder / "killed"), test::run_bytes(folder / "alone"));
   // One process has made them: its log is of the first, and the one that failed has a log of its own.
   std::size_t logs = 0;
-  for (const auto& entry : fs::directory_iterator(folder / "together" / "logs")) logs += entry.is_regular_file();
+  for (const auto& entry : fs::directory_iterator(folder / "together" / "logs"))
+    logs += entry.is_regular_file();
   EXPECT_EQ(logs, 2u);
 }
 
