@@ -12,7 +12,7 @@ namespace pendular::dem_core {
 namespace {
 
 constexpr char kNewest[] = "checkpoint", kPrevious[] = "checkpoint.previous", kNext[] = "checkpoint.next";
-constexpr char kMagic[] = "pendular checkpoint 6\n";
+constexpr char kMagic[] = "pendular checkpoint 7\n";
 
 struct Writer {
   std::string bytes;
@@ -113,8 +113,8 @@ void visit(Archive& a, LawParameters& l) {
 
 template <typename Archive>
 void visit(Archive& a, Simulation& s) {
-  fields(a, s.law, s.dt, s.steps, s.beads, s.pairs, s.bonds, s.bond_memory, s.bottom, s.top, s.initial_height,
-         s.section, s.listing.at, s.listing.margin, s.listing.bottom_at, s.listing.top_at,
+  fields(a, s.law, s.stiffest, s.dt, s.steps, s.beads, s.pairs, s.bonds, s.bond_memory, s.bottom, s.top,
+         s.initial_height, s.section, s.listing.at, s.listing.margin, s.listing.bottom_at, s.listing.top_at,
          s.listing.platen_margin, s.events, s.work.platen, s.work.damped, s.work.slipped, s.work.broken,
          s.work.halted, s.work.given);
 }

@@ -184,6 +184,13 @@ std::vector<Pair> with_old(std::span<const IndexPair> near, std::span<const Pair
   return listed;
 }
 
+/// N/m.
+double stiffest_spring(const Simulation& simulation) {
+  double stiffest = simulation.law.k_glass;
+  for (const auto& pair : simulation.pairs) stiffest = std::max(stiffest, pair.properties.kn);
+  return stiffest;
+}
+
 }  // namespace
 
 double BeadStates::mean_diameter() const {
@@ -216,9 +223,7 @@ void place_platens(Simulation& simulation, double speed) {
 
 double time_step(const Simulation& simulation, double fraction) {
   const double lightest = *std::min_element(simulation.beads.mass.begin(), simulation.beads.mass.end());
-  double stiffest = simulation.law.k_glass;
-  for (const auto& pair : simulation.pairs) stiffest = std::max(stiffest, pair.properties.kn);
-  return fraction * std::sqrt(lightest / stiffest);
+  return fraction * std::sqrt(lightest / stiffest_spring(simulation));
 }
 
 Simulation build_simulation(const Packing& packing, const Sample& sample) {
@@ -238,6 +243,7 @@ Simulation build_simulation(const Packing& packing, const Sample& sample) {
   place_platens(simulation, platen_speed(sample));
   simulation.section = 0.25 * M_PI * sample.specimen.diameter * sample.specimen.diameter;
   simulation.dt = time_step(simulation, sample.contact.time_step_fraction);
+  simulation.stiffest = stiffest_spring(simulation);
   list_pairs(simulation);
   return simulation;
 }

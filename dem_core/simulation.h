@@ -66,6 +66,7 @@ struct Listing {
 
 struct Simulation {
   LawParameters law;
+  double stiffest = 0.0;  ///< of all springs before the test, N/m: what forces are measured by
   double dt = 0.0;
   std::int64_t steps = 0;
   BeadStates beads;

@@ -111,15 +111,19 @@ void put_pair(const Pair& pair, const PairPlace& to, std::size_t at) {
   }
 }
 
+// What a step leaves as a zero of either sign is +0: a displacement that was passed over is the same as one
+// that was computed.
 void get_pair(const PairPlace& from, std::size_t at, Pair& pair) {
+  const auto vector = [at](const auto& x, const auto& y, const auto& z) {
+    return Triple<double>{x[at] + 0.0, y[at] + 0.0, z[at] + 0.0};
+  };
   PairHistory& history = pair.history;
   const PairColumns& columns = *from.columns;
-  history.bond_slip = {columns.slip_x[at], columns.slip_y[at], columns.slip_z[at]};
-  history.closing = columns.closing[at];
+  history.bond_slip = vector(columns.slip_x, columns.slip_y, columns.slip_z);
+  history.closing = columns.closing[at] + 0.0;
   if (const ContactBlock* contact = from.contact)
-    history.contact_slip = {contact->slip_x[at], contact->slip_y[at], contact->slip_z[at]};
-  if (const BendBlock* bend = from.bend)
-    history.turn = {bend->turn_x[at], bend->turn_y[at], bend->turn_z[at]};
+    history.contact_slip = vector(contact->slip_x, contact->slip_y, contact->slip_z);
+  if (const BendBlock* bend = from.bend) history.turn = vector(bend->turn_x, bend->turn_y, bend->turn_z);
 }
 
 void put_bead(const Platen& platen, std::size_t bead, PlatenColumns& to, std::size_t at) {
@@ -129,8 +133,8 @@ void put_bead(const Platen& platen, std::size_t bead, PlatenColumns& to, std::si
 }
 
 void get_bead(const PlatenColumns& from, std::size_t at, std::size_t bead, Platen& platen) {
-  platen.slip[bead] = {from.slip_x[at], from.slip_y[at], 0.0};
-  platen.closing[bead] = from.closing[at];
+  platen.slip[bead] = {from.slip_x[at] + 0.0, from.slip_y[at] + 0.0, 0.0};
+  platen.closing[bead] = from.closing[at] + 0.0;
 }
 
 }  // namespace pendular::dem_core

@@ -35,11 +35,11 @@ std::vector<CompressTask> tasks_in(const fs::path& folder, std::size_t size) {
   return tasks;
 }
 
-/// All but the checkpoint, in which a displacement of zero may have either sign.
+/// All but the checkpoint before the last.
 std::map<std::string, std::string> bytes(const fs::path& folder) {
   std::map<std::string, std::string> found;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file() || entry.path().stem() == "checkpoint") continue;
+    if (!entry.is_regular_file() || entry.path().extension() == ".previous") continue;
     std::string text = read_text(entry.path());
     if (entry.path().filename() == run_file::kResult) {
       auto json = nlohmann::ordered_json::parse(text);

@@ -25,6 +25,7 @@ struct Law {
   TangentialSprings springs;
   bool bond_friction_limit;
   double k_bend;
+  double stiffness_ratio = 10.0;
 };
 
 /// The kernels of one instruction set against the loop that anyone can read.
@@ -38,6 +39,7 @@ TEST_P(Kernel, AgreesWithTheReferenceLoop) {
   Sample sample = sample_a();
   sample.contact.tangential_springs = law.springs;
   sample.contact.bond_friction_limit = law.bond_friction_limit;
+  sample.contact.stiffness_ratio = law.stiffness_ratio;
   Simulation fast = violent(sample, disordered(4, 4), law.k_bend);
   Simulation slow = fast;
   Stepper stepper(fast);
@@ -81,7 +83,8 @@ INSTANTIATE_TEST_SUITE_P(
                                      Law{"TwoSpringsCoulomb", TangentialSprings::two, true, 0.0},
                                      Law{"OneSpring", TangentialSprings::one, false, 0.0},
                                      Law{"OneSpringCoulomb", TangentialSprings::one, true, 0.0},
-                                     Law{"Bending", TangentialSprings::two, false, 3e-6})),
+                                     Law{"Bending", TangentialSprings::two, false, 3e-6},
+                                     Law{"SoftGlass", TangentialSprings::two, false, 0.0, 0.01})),
     [](const auto& test) { return std::get<0>(test.param) + std::get<1>(test.param).name; });
 
 TEST(Stepper, RenumberedBeadsMoveTheSame) {
