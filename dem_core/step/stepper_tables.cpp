@@ -3,13 +3,14 @@
 #include <utility>
 
 #include "base/buckets.h"
+#include "base/parallel.h"
 #include "dem_core/step/listed.h"
 #include "dem_core/step/stepper.h"
 
 namespace pendular::dem_core {
 namespace {
 
-constexpr std::size_t kBeadsPerChunk = 256;
+constexpr std::size_t kBeadsPerChunk = 256, kPairsPerBlock = 2048;
 
 std::size_t filled_up(std::size_t size) {
   return (size + kBlock - 1) / kBlock * kBlock;
@@ -38,15 +39,13 @@ enum Group : std::size_t { kApart, kResting, kTouching, kLoose, kGroups };
 std::vector<Group> groups_of(const Simulation& simulation) {
   const std::vector<char> may_touch = touchable(simulation);
   std::vector<Group> found(may_touch.size());
-  for (std::size_t p = 0; p < found.size(); ++p) {
-    const Pair& pair = simulation.pairs[p];
-    if (pair.bond < 0)
-      found[p] = kLoose;
-    else if (!may_touch[p])
-      found[p] = kApart;
-    else
-      found[p] = gap(simulation, pair) > pair.properties.touch ? kResting : kTouching;
-  }
+  for_blocks(found.size(), kPairsPerBlock, [&](std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      const Pair& pair = simulation.pairs[p];
+      const auto touches = [&] { return gap(simulation, pair) <= pair.properties.touch; };
+      found[p] = pair.bond < 0 ? kLoose : !may_touch[p] ? kApart : touches() ? kTouching : kResting;
+    }
+  });
   return found;
 }
 
