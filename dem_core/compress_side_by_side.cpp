@@ -37,7 +37,7 @@ bool suits(const std::vector<Member>& members, const Member& further) {
 class Tests {
  public:
   Tests(std::vector<Member>& members, const CompressEnded& ended)
-      : members_(members), ended_(ended), all_(simulations_of(members)), going_(members.size(), true) {
+      : all_(simulations_of(members)), members_(members), ended_(ended), going_(members.size(), true) {
     runs_.reserve(members.size());
     for (std::size_t k = 0; k < members.size(); ++k) {
       runs_.emplace_back(all_, k);
@@ -113,9 +113,9 @@ class Tests {
     return seconds_before_ + seconds_since(since_) / static_cast<double>(std::max<std::ptrdiff_t>(1, going));
   }
 
+  SideBySide all_;
   std::vector<Member>& members_;
   const CompressEnded& ended_;
-  SideBySide all_;
   std::vector<SideBySide::Run> runs_;
   std::vector<Test> tests_;
   std::vector<bool> going_;
