@@ -181,7 +181,7 @@ void recorded_for_itself(Store& store, const std::string& hash, const Work& work
   } catch (const Interrupted&) {
     throw;
   } catch (const std::exception& error) {
-    write_text(store.log_path(hash), fmt::format("error: {}\n", error.what()));
+    write_text(store.log_path(hash), fmt::format("pendular: {}\n", error.what()));
   }
 }
 

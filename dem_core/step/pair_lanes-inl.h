@@ -33,6 +33,11 @@ HWY_INLINE void store(Lanes value, float* to) {
   hn::Store(hn::DemoteTo(Floats(), value.v), Floats(), to);
 }
 
+HWY_INLINE void add_to(WholeLanes more, std::int64_t* to) {
+  const WholeLanes::Tag tag;
+  hn::Store(hn::Add(hn::Load(tag, to), more.v), tag, to);
+}
+
 /// Of both beads, to mid-gap; `difference` is R_i − R_j.
 struct Arms {
   Lanes i, j;

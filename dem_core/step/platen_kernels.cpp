@@ -86,11 +86,6 @@ PlatenTotals PressBeads(AlignedVector<PlatenBlock>& near, BeadTable& beads,
   return {sum(force), sum(damped), sum(slipped)};
 }
 
-HWY_INLINE void add(WholeLanes more, std::int64_t* to) {
-  const WholeLanes::Tag tag;
-  hn::Store(hn::Add(hn::Load(tag, to), more.v), tag, to);
-}
-
 void PressSideBySide(SidePlaten& platen, SideBeads& beads, const SideLaw& law, BlockOf<std::int64_t>& force,
                      SideTotals& totals) {
   const PlatenNumbers<BlockOf<double>>& of = platen.numbers;
@@ -110,10 +105,11 @@ void PressSideBySide(SidePlaten& platen, SideBeads& beads, const SideLaw& law, B
       PlatenShares shares;
       advance_bead(given, per, bead, platen.beads[row], lane, shares);
       SideSums& on = beads.sums[row];
-      add(shares.force.x, on.fx + lane), add(shares.force.y, on.fy + lane), add(shares.force.z, on.fz + lane);
-      add(shares.torque.x, on.tx + lane), add(shares.torque.y, on.ty + lane);
-      add(shares.normal, force + lane);
-      add(shares.damped, totals.damped + lane), add(shares.slipped, totals.slipped + lane);
+      add_to(shares.force.x, on.fx + lane), add_to(shares.force.y, on.fy + lane),
+          add_to(shares.force.z, on.fz + lane);
+      add_to(shares.torque.x, on.tx + lane), add_to(shares.torque.y, on.ty + lane);
+      add_to(shares.normal, force + lane);
+      add_to(shares.damped, totals.damped + lane), add_to(shares.slipped, totals.slipped + lane);
     }
   }
 }

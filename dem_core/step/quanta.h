@@ -1,6 +1,5 @@
 #pragma once
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -32,13 +31,6 @@ struct PerQuantum {
 };
 inline PerQuantum per_quantum(const Quanta& one) {
   return {1.0 / one.force, 1.0 / one.torque, 1.0 / one.energy};
-}
-
-/// The whole number nearest to a value over a quantum, for values within 2^51 quanta.
-inline std::int64_t in_quanta(double value, double per) {
-  constexpr double kMiddle =
-      0x1.8p52;  // doubles around it are whole numbers, and follow each other as their bits do
-  return std::bit_cast<std::int64_t>(value * per + kMiddle) - std::bit_cast<std::int64_t>(kMiddle);
 }
 
 /// Wraps around, as the kernels do.

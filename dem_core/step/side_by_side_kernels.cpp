@@ -42,18 +42,15 @@ HWY_INLINE void put_motion(const SideBead& i, const SideBead& j, std::size_t lan
   if (bending) motion.turning = spin_i - spin_j;
 }
 
-HWY_INLINE void add(WholeLanes more, std::int64_t* to) {
-  const WholeLanes::Tag tag;
-  hn::Store(hn::Add(hn::Load(tag, to), more.v), tag, to);
-}
 HWY_INLINE void take(WholeLanes less, std::int64_t* from) {
   const WholeLanes::Tag tag;
   hn::Store(hn::Sub(hn::Load(tag, from), less.v), tag, from);
 }
 
 HWY_INLINE void add_to_beads(const Shares& shares, std::size_t lane, SideSums& i, SideSums& j) {
-  add(shares.force.x, i.fx + lane), add(shares.force.y, i.fy + lane), add(shares.force.z, i.fz + lane);
-  add(shares.on_i.x, i.tx + lane), add(shares.on_i.y, i.ty + lane), add(shares.on_i.z, i.tz + lane);
+  add_to(shares.force.x, i.fx + lane), add_to(shares.force.y, i.fy + lane),
+      add_to(shares.force.z, i.fz + lane);
+  add_to(shares.on_i.x, i.tx + lane), add_to(shares.on_i.y, i.ty + lane), add_to(shares.on_i.z, i.tz + lane);
   take(shares.force.x, j.fx + lane), take(shares.force.y, j.fy + lane), take(shares.force.z, j.fz + lane);
   take(shares.from_j.x, j.tx + lane), take(shares.from_j.y, j.ty + lane);
   take(shares.from_j.z, j.tz + lane);
@@ -125,8 +122,8 @@ void advance(SidePairs& pairs, SideBeads& beads, const SideLaw& law, LawParts pa
     }
   }
   for (std::size_t part = 0; part < kParts; ++part) {
-    add(losses[part].damped, totals.damped + part * kLanes);
-    add(losses[part].slipped, totals.slipped + part * kLanes);
+    add_to(losses[part].damped, totals.damped + part * kLanes);
+    add_to(losses[part].slipped, totals.slipped + part * kLanes);
   }
 }
 
