@@ -115,6 +115,11 @@ const std::vector<std::string>& words_for<StiffnessOf>() {
   return words;
 }
 template <>
+const std::vector<std::string>& words_for<Glass>() {
+  static const std::vector<std::string> words = {"linear", "hertz"};
+  return words;
+}
+template <>
 const std::vector<std::string>& words_for<TangentialSprings>() {
   static const std::vector<std::string> words = {"one", "two"};
   return words;
@@ -131,6 +136,9 @@ std::string to_string(Diameters value) {
 std::string to_string(StiffnessOf value) {
   return words_for<StiffnessOf>().at(static_cast<std::size_t>(value));
 }
+std::string to_string(Glass value) {
+  return words_for<Glass>().at(static_cast<std::size_t>(value));
+}
 std::string to_string(TangentialSprings value) {
   return words_for<TangentialSprings>().at(static_cast<std::size_t>(value));
 }
@@ -145,6 +153,7 @@ const std::vector<WordKey>& word_keys() {
   static const std::vector<WordKey> keys = {
       {"beads.diameters", PENDULAR_WORD(Diameters, beads.diameters)},
       {"bridges.stiffness", PENDULAR_WORD(StiffnessOf, bridges.stiffness)},
+      {"contact.glass", PENDULAR_WORD(Glass, contact.glass)},
       {"contact.tangential_springs", PENDULAR_WORD(TangentialSprings, contact.tangential_springs)},
       {"compression.control", PENDULAR_WORD(Control, compression.control)},
   };

@@ -47,6 +47,7 @@ struct Sample {
     double platen_friction = 0.5;     ///< μ between beads and platens
     double damping_fraction = 0.1;    ///< ζ over the critical damping of two mean beads in touch
     double time_step_fraction = 0.2;  ///< time step over √(m_min/k_max)
+    Glass glass = Glass::linear;
     TangentialSprings tangential_springs = TangentialSprings::two;
     bool bond_friction_limit = true;  ///< Coulomb limit μ|F^n| also on the bond's tangential force
   } contact;

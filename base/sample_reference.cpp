@@ -20,6 +20,10 @@ const std::map<std::string, std::string> kMeanings = {
      "by finite elements, where no stiffness is stated: `one`, the mean bridge's for all bonds; "
      "`per_bridge`, "
      "each bridge's own"},
+    {"contact.glass",
+     "normal force of glass on glass: `linear`; `hertz`, as the overlap to 3/2, the same force at an overlap "
+     "of D/200 "
+     "([model.md](model.md))"},
     {"contact.tangential_springs",
      "`two`: bond and glass apart; `one`: a single spring, stiffer once glass touches "
      "([model.md](model.md))"},

@@ -21,6 +21,12 @@ enum class StiffnessOf {
   per_bridge,  ///< each from its own gap and diameter
 };
 
+/// The normal force of glass on glass.
+enum class Glass {
+  linear,  ///< k_glass times the overlap
+  hertz,   ///< after Hertz, the same at an overlap of D/200
+};
+
 /// Of a pair that is bonded and in contact.
 enum class TangentialSprings {
   one,  ///< one whose stiffness jumps at touch
@@ -42,12 +48,15 @@ const std::vector<std::string>& words_for<Diameters>();
 template <>
 const std::vector<std::string>& words_for<StiffnessOf>();
 template <>
+const std::vector<std::string>& words_for<Glass>();
+template <>
 const std::vector<std::string>& words_for<TangentialSprings>();
 template <>
 const std::vector<std::string>& words_for<Control>();
 
 std::string to_string(Diameters value);
 std::string to_string(StiffnessOf value);
+std::string to_string(Glass value);
 std::string to_string(TangentialSprings value);
 std::string to_string(Control value);
 

@@ -34,6 +34,7 @@ const std::vector<Engine>& engines() {
        {}},
       {"coulomb_bonds", "Coulomb's limit on bonds too", {{"contact.bond_friction_limit", true}}, {}, {}},
       {"damped", "three times the damping", {{"contact.damping_fraction", 0.3}}, {}, {}},
+      {"hertz", "glass after Hertz", {{"contact.glass", std::string("hertz")}}, {}, {}},
   };
   return all;
 }

@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kWeakest = 0.2;  // of an effect's range, where the split does not say from where it is seen
 constexpr double kHidden = 0.1;   // of the single effects that could be: below what can be seen
-constexpr double kCurveAlone = 0.15, kWithNetwork = 0.20, kWithSecond = 0.25;  // shares of the cases
 constexpr std::size_t kNoEffectEvery = 3;  // so many cases of another engine
 constexpr double kFarthestOffset = 2.0;    // of a believed value that is not deliberately wrong, in its sd
 constexpr double kWrong = 2.0;             // of one that is
@@ -184,18 +183,17 @@ class Truths {
   Deck<std::string> beliefs_, laws_, engines_;
 };
 
-/// What an experimenter measured: a curve alone (15 %), with Z and lateral strain (20 %), with a second
-/// specimen besides (25 %), and with a second scan (40 %); from the second level on, each of the rest by
-/// chance.
-void draw_observations(CasePlan& plan, Dice& dice) {
+/// What an experimenter measured, by the split's shares; from coordination and lateral strain on, each of the
+/// rest by chance.
+void draw_observations(CasePlan& plan, const Split& split, Dice& dice) {
   const double level = dice.between(0.0, 1.0);
-  if (level < kCurveAlone) return;
+  double below = 0.0;
+  for (std::size_t k = 0; k < kObserved && level >= below; below += split.observed[k++])
+    plan.observed = static_cast<Observed>(k);
+  if (plan.observed == Observed::curve) return;
   plan.kinds = {"coordination", "lateral_strain"};
   for (const char* kind : {"broken_bonds", "bridge_stiffness", "bridge_diameters", "bridge_gaps"})
     if (dice.chance(0.5)) plan.kinds.push_back(kind);
-  plan.observed = level < kCurveAlone + kWithNetwork                 ? Observed::network
-                  : level < kCurveAlone + kWithNetwork + kWithSecond ? Observed::second_specimen
-                                                                     : Observed::scan;
   const double network = dice.between(0.0, 1.0);
   plan.bridges_at_rest = plan.scanned() && network < 0.5;
   plan.bridges_under_load = plan.scanned() && network < 0.25;
@@ -228,7 +226,7 @@ std::vector<CasePlan> plan_of(const Split& split) {
     plan.seed = dice.bits() >> 1;  // fits a signed number of JSON and TOML
     const std::uint64_t high = dice.bits(), low = dice.bits();
     plan.salt = fmt::format("{:016x}{:016x}", high, low);
-    draw_observations(plan, dice);
+    draw_observations(plan, split, dice);
   }
   return plans;
 }

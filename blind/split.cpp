@@ -37,6 +37,12 @@ std::size_t place_among(const std::vector<std::string>& names, const std::string
 
 // Shares that leave each stratum of eighty cases some eight to thirty of them.
 constexpr std::array<double, kStrata> kDefaultShares = {0.35, 0.12, 0.20, 0.12, 0.12, 0.09, 0.0};
+constexpr std::array<double, kObserved> kDefaultObserved = {0.15, 0.20, 0.25, 0.40};
+
+/// Without `engines`: the cases of a split follow from it, so that engines that come later are no part of it.
+std::vector<std::string> default_engines() {
+  return {"yade", "yade_limits", "yade_hertz", "one_spring", "coulomb_bonds", "damped"};
+}
 
 const toml::table& table_at(const TomlPlace& place) {
   if (!place.node.is_table()) bad_input("{}: found {}, expected a table", place.str(), type_name(place.node));
@@ -117,14 +123,18 @@ void read_uncertainty(Split& split, const TomlPlace& section) {
   });
 }
 
-void read_shares(Split& split, const TomlPlace& section) {
-  split.shares = {};
-  read_section(section, stratum_names(), [&](const std::string& key, const auto& place) {
-    split.shares[static_cast<std::size_t>(stratum_of(key, place.str()))] = number_between(place, 0.0, 1e6);
+/// Shares by name, made to sum to 1; those that are not named are 0.
+template <std::size_t size>
+void read_shares(std::array<double, size>& shares, const std::vector<std::string>& names,
+                 const TomlPlace& section) {
+  shares = {};
+  read_section(section, names, [&](const std::string& key, const auto& place) {
+    const auto at = std::find(names.begin(), names.end(), key) - names.begin();
+    shares[static_cast<std::size_t>(at)] = number_between(place, 0.0, 1e6);
   });
-  const double sum = std::accumulate(split.shares.begin(), split.shares.end(), 0.0);
+  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
   if (sum <= 0.0) bad_input("{}: found no share above 0", section.str());
-  for (double& share : split.shares) share /= sum;
+  for (double& share : shares) share /= sum;
 }
 
 void read_seen_from(Split& split, const TomlPlace& section) {
@@ -202,7 +212,8 @@ Split read_split(const fs::path& path, std::optional<std::uint64_t> seed) {
   Split split;
   split.file = path;
   split.shares = kDefaultShares;
-  split.engines = engine_names();
+  split.observed = kDefaultObserved;
+  split.engines = default_engines();
   const std::string file = path.string(), text = read_text(path);
   fs::path sample;
   const toml::table root = parse_toml(text, file);
@@ -215,13 +226,15 @@ Split read_split(const fs::path& path, std::optional<std::uint64_t> seed) {
     else if (key == "uncertainty")
       read_uncertainty(split, place);
     else if (key == "strata")
-      read_shares(split, place);
+      read_shares(split.shares, stratum_names(), place);
+    else if (key == "observed")
+      read_shares(split.observed, observed_names(), place);
     else if (key == "seen_from")
       read_seen_from(split, place);
     else if (key == "packing")
       read_packings(split, place);
     else
-      unknown_key(place, {"split", "test", "uncertainty", "strata", "seen_from", "packing"});
+      unknown_key(place, {"split", "test", "uncertainty", "strata", "observed", "seen_from", "packing"});
   }
   if (sample.empty()) bad_input("{}: split.sample is missing, expected a sample file", file);
   split.sample = read_sample(sample);

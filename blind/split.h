@@ -44,12 +44,13 @@ struct Split {
   std::uint64_t seed = 1;
   std::size_t cases = 0;
   fs::path file;
-  std::string content;                        ///< SHA-256 of what the cases follow from
-  Sample sample;                              ///< what is believed; A's height is the packing's
-  std::map<std::string, double> uncertainty;  ///< one sd of a believed value, by dotted key, in its unit
-  std::array<double, kStrata> shares = {};    ///< of the cases, summing to 1
-  std::vector<std::string> engines;           ///< that take turns in the stratum other_engine
-  std::map<std::string, double> seen_from;    ///< |θ| from which an effect can be told from none, by its id
+  std::string content;                          ///< SHA-256 of what the cases follow from
+  Sample sample;                                ///< what is believed; A's height is the packing's
+  std::map<std::string, double> uncertainty;    ///< one sd of a believed value, by dotted key, in its unit
+  std::array<double, kStrata> shares = {};      ///< of the cases, summing to 1
+  std::array<double, kObserved> observed = {};  ///< shares of the cases by what is measured, likewise
+  std::vector<std::string> engines;             ///< that take turns in the stratum other_engine
+  std::map<std::string, double> seen_from;  ///< |θ| from which an effect can be told from none, by its id
   std::vector<SharedPacking> packings;
   double max_strain = 0.09, unload_at = 0.03;         ///< of the tests; A is unloaded once
   double sigma_centre = 3e-7, sigma_diameter = 3e-7;  ///< of the measured beads, m

@@ -23,6 +23,8 @@ namespace {
 constexpr double kStepsBetweenListings = 800.0, kOfNeighbour = 0.5, kLeastMargin = 0.002,
                  kLargestMargin = 0.3;
 
+constexpr double kHertzOverlap = 0.005;  // over D, where both laws of glass push alike
+
 double ball_mass(double density, double diameter) {
   return density * M_PI / 6.0 * diameter * diameter * diameter;
 }
@@ -51,6 +53,7 @@ LawParameters law_parameters(const Sample& sample, const micromechanics::BondSti
   const double mean_mass = ball_mass(sample.beads.density, sample.beads.diameter);
   // Critical damping of two mean beads in touch: 2 √(k m/2).
   law.damping = sample.contact.damping_fraction * 2.0 * std::sqrt(law.k_glass * 0.5 * mean_mass);
+  if (sample.contact.glass == Glass::hertz) law.hertz_overlap = kHertzOverlap * sample.beads.diameter;
   law.one_spring = sample.contact.tangential_springs == TangentialSprings::one;
   law.bond_friction_limit = sample.contact.bond_friction_limit;
   return law;
@@ -284,7 +287,7 @@ Energies energies(const Simulation& simulation) {
     for (std::size_t k = 0; k < beads.size(); ++k) {
       const double overlap = -platen->gap(k, beads.position[k].z(), beads.radius[k]);
       if (overlap > 0.0)
-        total.elastic += 0.5 * simulation.law.k_glass * overlap * overlap +
+        total.elastic += contact_energy(-overlap, 0.0, simulation.law) +
                          0.5 * simulation.law.kt_glass * platen->slip[k].squaredNorm();
     }
   return total;

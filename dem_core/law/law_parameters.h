@@ -26,6 +26,7 @@ using PairProperties = PairData<double>;
 template <typename Real>
 struct LawNumbers {
   Real k_glass, kt_glass;  ///< contact stiffness, N/m
+  Real per_overlap;        ///< of glass after Hertz: 1/LawParameters::hertz_overlap, 1/m
   Real friction;           ///< μ
   Real damping;            ///< ζ, N s/m
   Real dt;                 ///< time step, s
@@ -58,6 +59,7 @@ struct PlatenNumbers {
   Real z, velocity;        ///< of the face, along z
   Real sign;               ///< +1: beads are above it; −1: below
   Real k_glass, kt_glass;  ///< contact stiffness, N/m
+  Real per_overlap;        ///< as of LawNumbers, 1/m
   Real friction, damping;  ///< μ of platens; ζ, N s/m
   Real dt, half_damping_dt;
 };
@@ -88,6 +90,7 @@ struct PlatenAction {
 /// What the law of a specimen is made of.
 struct LawParameters {
   double k_glass = 0.0, kt_glass = 0.0;
+  double hertz_overlap = 0.0;  ///< at which glass after Hertz pushes as k_glass does, m; 0: glass is linear
   double friction = 0.0;
   double platen_friction = 0.0;
   double damping = 0.0;
@@ -98,7 +101,14 @@ struct LawParameters {
 
 /// Which parts of the law are at work; the same for all pairs of a specimen.
 struct LawParts {
-  bool one_spring, bond_friction_limit, bending;
+  bool one_spring, bond_friction_limit, bending, hertz;
+};
+
+/// The normal force of glass on glass.
+template <typename Real>
+struct GlassLaw {
+  Real k, per_overlap;  ///< as of LawNumbers
+  bool hertz;
 };
 
 }  // namespace pendular::dem_core

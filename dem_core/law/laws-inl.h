@@ -16,25 +16,44 @@ HWY_BEFORE_NAMESPACE();
 namespace pendular::dem_core {
 namespace HWY_NAMESPACE {
 
-/// Glass part of the normal force: −k_glass (δn − touch) in overlap.
+/// Force over overlap of glass: k_glass, or as the root of the overlap (Hertz 1881).
 template <typename Real>
-HWY_INLINE Real contact_force(Real gap, Real touch, Real k_glass) {
-  return k_glass * larger(touch - gap, same(0.0, gap));
+HWY_INLINE Real glass_secant(Real overlap, const GlassLaw<Real>& glass) {
+  return glass.hertz ? glass.k * square_root(glass.per_overlap * overlap) : glass.k;
 }
 
-/// Bond part of the normal force: −kn (δn − δ0) apart, constant in overlap (paper, eq. 3).
+/// Glass part of the normal force: −k_glass (δn − touch) in overlap, or Hertz's.
 template <typename Real>
-HWY_INLINE Real bond_force(Real gap, const PairData<Real>& pair) {
-  return pair.kn * (pair.rest - larger(gap, pair.touch));
+HWY_INLINE Real contact_force(Real gap, Real touch, const GlassLaw<Real>& glass) {
+  const Real overlap = larger(touch - gap, same(0.0, gap));
+  return glass_secant(overlap, glass) * overlap;
 }
 
-/// Energy of which contact_force + bond_force is minus the derivative with respect to the gap, J.
+/// The gap that a bond feels: in overlap that at touch (paper, eq. 3), unless glass is after Hertz, which at
+/// touch has no stiffness of its own.
 template <typename Real>
-HWY_INLINE Real normal_energy(Real gap, const PairData<Real>& pair, Real k_glass) {
-  const Real half = same(0.5, gap);
-  const Real stretch = larger(gap, pair.touch) - pair.rest;
-  const Real overlap = larger(pair.touch - gap, same(0.0, gap));
-  return half * pair.kn * stretch * stretch + (half * k_glass * overlap - pair.kn * stretch) * overlap;
+HWY_INLINE Real felt_by_bond(Real gap, Real touch, bool hertz) {
+  return hertz ? gap : larger(gap, touch);
+}
+
+/// Bond part of the normal force: −kn (δn − δ0).
+template <typename Real>
+HWY_INLINE Real bond_force(Real gap, const PairData<Real>& pair, bool hertz) {
+  return pair.kn * (pair.rest - felt_by_bond(gap, pair.touch, hertz));
+}
+
+/// Energy of which contact_force is minus the derivative with respect to the gap, J.
+template <typename Real>
+HWY_INLINE Real contact_energy(Real gap, Real touch, const GlassLaw<Real>& glass) {
+  const Real overlap = larger(touch - gap, same(0.0, gap));
+  return same(glass.hertz ? 0.4 : 0.5, gap) * glass_secant(overlap, glass) * overlap * overlap;
+}
+
+/// Energy of which bond_force is minus the derivative with respect to the gap, J.
+template <typename Real>
+HWY_INLINE Real bond_energy(Real gap, const PairData<Real>& pair, bool hertz) {
+  const Real felt = felt_by_bond(gap, pair.touch, hertz), stretch = felt - pair.rest;
+  return pair.kn * stretch * (same(0.5, gap) * stretch - (felt - gap));
 }
 
 /// A tangential displacement carried along with the contact plane: projected on the plane normal to n, and

@@ -66,11 +66,12 @@ HWY_INLINE PairAction<Real> advance_pair(const PairApproach<Real>& seen, const P
   const auto touching = gap <= pair.touch;
 
   PairAction<Real> out;
-  Real normal = bond_force(gap, pair);
+  Real normal = bond_force(gap, pair, parts.hertz);
+  const GlassLaw<Real> glass_law = {law.k_glass, law.per_overlap, parts.hertz};
   Triple<Real> tangential = nowhere;
   out.slipped = zero;
   if (parts.one_spring) {
-    const Real glass = contact_force(gap, pair.touch, law.k_glass);
+    const Real glass = contact_force(gap, pair.touch, glass_law);
     normal = normal + glass;
     const Triple<Real> before = memory.bond_slip;
     Triple<Real> slip = mul_add(law.dt, sliding, carried(before, n, spin));
@@ -93,7 +94,7 @@ HWY_INLINE PairAction<Real> advance_pair(const PairApproach<Real>& seen, const P
     tangential = -pair.kt * memory.bond_slip;
     if (may_touch) {
       const Triple<Real> last = memory.contact_slip;
-      const Real glass = contact_force(gap, pair.touch, law.k_glass);
+      const Real glass = contact_force(gap, pair.touch, glass_law);
       normal = normal + glass;
       Triple<Real> slip_now = mul_add(law.dt, sliding, carried(last, n, spin));
       // Once apart the limit is zero: what the spring still held is lost.

@@ -5,6 +5,13 @@
 namespace pendular::dem_core {
 
 namespace law = HWY_NAMESPACE;
+namespace {
+
+GlassLaw<double> glass_law(const LawParameters& parameters) {
+  return {parameters.k_glass, per_overlap(parameters), parts(parameters).hertz};
+}
+
+}  // namespace
 
 PairForce advance_pair(const BeadMotion& i, const BeadMotion& j, const PairProperties& pair,
                        const LawParameters& parameters, double dt, PairHistory& history) {
@@ -19,12 +26,21 @@ PairForce advance_pair(const BeadMotion& i, const BeadMotion& j, const PairPrope
   return {law::advance_pair<true>(seen, motion, pair, given, parts(parameters), history), 0.5 * seen.gap};
 }
 
-double contact_force(double gap, double touch, double k_glass) {
-  return law::contact_force(gap, touch, k_glass);
+double contact_force(double gap, double touch, const LawParameters& parameters) {
+  return law::contact_force(gap, touch, glass_law(parameters));
+}
+
+double contact_energy(double gap, double touch, const LawParameters& parameters) {
+  return law::contact_energy(gap, touch, glass_law(parameters));
 }
 
 double normal_force(double gap, const PairProperties& pair, const LawParameters& parameters) {
-  return law::contact_force(gap, pair.touch, parameters.k_glass) + law::bond_force(gap, pair);
+  return contact_force(gap, pair.touch, parameters) + law::bond_force(gap, pair, parts(parameters).hertz);
+}
+
+double normal_stiffness(double gap, const PairProperties& pair, const LawParameters& parameters) {
+  const GlassLaw<double> glass = glass_law(parameters);
+  return glass.hertz ? pair.kn + 1.5 * law::glass_secant(pair.touch - gap, glass) : glass.k;
 }
 
 bool breaks(double gap, const PairProperties& pair, const PairHistory& history) {
@@ -35,7 +51,8 @@ double pair_energy(const Vec3& apart, double radii, const PairProperties& pair, 
                    const LawParameters& parameters) {
   const double distance = apart.norm(), gap = distance - radii;
   const double bond_shear = law::dot(history.bond_slip, history.bond_slip);
-  const double energy = law::normal_energy(gap, pair, parameters.k_glass) +
+  const double energy = contact_energy(gap, pair.touch, parameters) +
+                        law::bond_energy(gap, pair, parts(parameters).hertz) +
                         law::bending_energy(history.turn, triple(apart / distance), pair);
   if (parameters.one_spring)
     return energy + 0.5 * (gap <= pair.touch ? parameters.kt_glass : pair.kt) * bond_shear;

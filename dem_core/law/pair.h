@@ -18,11 +18,15 @@ inline double length(const Triple<double>& t) {
   return std::sqrt(t.x * t.x + (t.y * t.y + t.z * t.z));
 }
 
+inline double per_overlap(const LawParameters& law) {
+  return law.hertz_overlap > 0.0 ? 1.0 / law.hertz_overlap : 0.0;
+}
 inline LawNumbers<double> numbers(const LawParameters& law, double dt) {
-  return {law.k_glass, law.kt_glass, law.friction, law.damping, dt, 0.5 * dt, 0.5 * law.damping * dt};
+  return {law.k_glass, law.kt_glass, per_overlap(law), law.friction,
+          law.damping, dt,           0.5 * dt,         0.5 * law.damping * dt};
 }
 inline LawParts parts(const LawParameters& law) {
-  return {law.one_spring, law.bond_friction_limit, law.bending};
+  return {law.one_spring, law.bond_friction_limit, law.bending, law.hertz_overlap > 0.0};
 }
 
 /// One bead as its pairs see it; SI.
@@ -49,10 +53,16 @@ inline Vec3 torque_on_j(const PairForce& force, double radius_j) {
 
 /// Glass part of F^n without damping, N; positive pushes apart. `touch` is the gap at which the glass
 /// touches, m.
-double contact_force(double gap, double touch, double k_glass);
+double contact_force(double gap, double touch, const LawParameters& law);
+
+/// Energy stored in the glass, J.
+double contact_energy(double gap, double touch, const LawParameters& law);
 
 /// F^n without damping, N; positive pushes apart.
 double normal_force(double gap, const PairProperties& pair, const LawParameters& law);
+
+/// By how much that force falls as the gap of touching glass grows, N/m.
+double normal_stiffness(double gap, const PairProperties& pair, const LawParameters& law);
 
 /// Whether a standing bond breaks (Griffith's criterion).
 bool breaks(double gap, const PairProperties& pair, const PairHistory& history);

@@ -16,13 +16,14 @@ namespace HWY_NAMESPACE {
 
 /// Advances what a platen remembers of a bead.
 template <typename Real>
-HWY_INLINE PlatenAction<Real> touch(const PlatenNumbers<Real>& platen, const PlatenBead<Real>& bead,
-                                    PlatenMemory<Real>& memory) {
+HWY_INLINE PlatenAction<Real> touch(const PlatenNumbers<Real>& platen, LawParts parts,
+                                    const PlatenBead<Real>& bead, PlatenMemory<Real>& memory) {
   const Real zero = same(0.0, bead.z), half = same(0.5, bead.z);
   const Real gap = mul_add(platen.sign, bead.z - platen.z, bead.relief) - bead.radius;
   const Real arm = mul_add(half, gap, bead.radius), signed_arm = platen.sign * arm;
   const Real closing = platen.sign * (bead.velocity.z - platen.velocity);
-  const Real glass = contact_force(gap, zero, platen.k_glass);
+  const Real glass =
+      contact_force(gap, zero, GlassLaw<Real>{platen.k_glass, platen.per_overlap, parts.hertz});
   const Real opposed = select(gap <= zero, closing, zero);
 
   const Triple<Real> sliding = {neg_mul_add(signed_arm, bead.spin.y, bead.velocity.x),

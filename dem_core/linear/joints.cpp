@@ -38,19 +38,21 @@ Joint platen_joint(const Simulation& s, const Platen& platen, int node, std::siz
 }
 
 /// `glass_shear`: the share of the glass's tangential spring that counts.
-NetworkSpring spring_of(const Joint& joint, const LawParameters& law, bool closed, double glass_shear) {
+NetworkSpring spring_of(const Joint& joint, const LawParameters& law, const Closure& closure,
+                        double glass_shear) {
   NetworkSpring spring = joint.place;
   const PairProperties& pair = joint.law;
   spring.tangential = pair.kt;
   spring.bend = pair.k_bend;
   spring.twist = pair.k_twist;
-  if (!closed) {
+  if (!closure.closed) {
     spring.normal = pair.kn;
     spring.push = pair.kn * (pair.rest - joint.gap);
     return spring;
   }
-  spring.normal = law.k_glass;
-  spring.push = pair.kn * (pair.rest - pair.touch) + law.k_glass * (pair.touch - joint.gap);
+  // The law's tangent at the gap where the joint is closed, which for linear glass is the law itself.
+  spring.normal = normal_stiffness(closure.gap, pair, law);
+  spring.push = normal_force(closure.gap, pair, law) + spring.normal * (closure.gap - joint.gap);
   if (law.one_spring)
     spring.tangential = law.kt_glass;
   else
@@ -61,7 +63,7 @@ NetworkSpring spring_of(const Joint& joint, const LawParameters& law, bool close
 Closure closure_of(const Joint& joint, double opening) {
   const double gap = joint.gap + opening, touch = joint.law.touch;
   if (gap > touch) return {};
-  return {true, joint.gap > touch ? (joint.gap - touch) / -opening : 0.0};
+  return {true, joint.gap > touch ? (joint.gap - touch) / -opening : 0.0, gap};
 }
 
 }  // namespace
@@ -101,7 +103,7 @@ SpringNetwork network_of(const Simulation& s, const std::vector<Joint>& joints,
   for (std::size_t k = 0; k < joints.size(); ++k)
     if (closures[k].closed || joints[k].bonded())
       springs.push_back(
-          spring_of(joints[k], s.law, closures[k].closed, secant ? 1.0 - closures[k].open_share : 1.0));
+          spring_of(joints[k], s.law, closures[k], secant ? 1.0 - closures[k].open_share : 1.0));
   return nodes_of(s).with(std::move(springs));
 }
 
@@ -123,7 +125,7 @@ JointState state_at(const Joint& joint, const Closure& closure, const SpringNetw
     state.slides =
         (closure.closed || law.bond_friction_limit) && at_limit(k * bond_slip.norm(), state.normal);
   } else {
-    const double glass = contact_force(gap, joint.law.touch, law.k_glass);
+    const double glass = contact_force(gap, joint.law.touch, law);
     state.slides = (closure.closed && at_limit(law.kt_glass * contact_slip.norm(), glass)) ||
                    (law.bond_friction_limit && at_limit(joint.law.kt * bond_slip.norm(), state.normal));
   }

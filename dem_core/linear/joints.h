@@ -19,10 +19,12 @@ struct Joint {
   bool bonded() const { return law.kn > 0.0; }
 };
 
-/// Whether a joint's glass is closed, and the share of a straight way there on which it still was open.
+/// Whether a joint's glass is closed, the share of a straight way there on which it still was open, and the
+/// gap there, m.
 struct Closure {
   bool closed = false;
   double open_share = 0.0;
+  double gap = 0.0;
 };
 
 /// All pairs that are listed, then the beads within `reach` (m) of each platen's face.

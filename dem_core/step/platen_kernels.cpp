@@ -21,13 +21,13 @@ struct PlatenShares {
   WholeLanes normal, damped, slipped;
 };
 
-HWY_INLINE void advance_bead(const PlatenNumbers<Lanes>& platen, const LanesPerQuantum& per,
+HWY_INLINE void advance_bead(const PlatenNumbers<Lanes>& platen, LawParts parts, const LanesPerQuantum& per,
                              PlatenBead<Lanes>& bead, PlatenColumns& columns, std::size_t lane,
                              PlatenShares& to) {
   bead.relief = load(columns.relief + lane);
   PlatenMemory<Lanes> memory = {load(columns.slip_x + lane), load(columns.slip_y + lane),
                                 load(columns.closing + lane)};
-  const PlatenAction<Lanes> action = touch(platen, bead, memory);
+  const PlatenAction<Lanes> action = touch(platen, parts, bead, memory);
   store(memory.slip_x, columns.slip_x + lane), store(memory.slip_y, columns.slip_y + lane);
   store(memory.closing, columns.closing + lane);
   put_nearest_in_48_bits(per.force, action.force, to.force);
@@ -60,13 +60,14 @@ HWY_INLINE void add_rows(const PlatenShares& shares, const std::uint32_t* at, st
 }
 
 PlatenTotals PressBeads(AlignedVector<PlatenBlock>& near, BeadTable& beads,
-                        const PlatenNumbers<double>& platen, const PerQuantum& per) {
+                        const PlatenNumbers<double>& platen, LawParts parts, const PerQuantum& per) {
   const WholeLanes::Tag tag;
   const Lanes zero = {hn::Zero(Lanes::Tag())};
   const auto all = [&](double value) { return same(value, zero); };
-  const PlatenNumbers<Lanes> given = {all(platen.z),       all(platen.velocity), all(platen.sign),
-                                      all(platen.k_glass), all(platen.kt_glass), all(platen.friction),
-                                      all(platen.damping), all(platen.dt),       all(platen.half_damping_dt)};
+  const PlatenNumbers<Lanes> given = {
+      all(platen.z),        all(platen.velocity),       all(platen.sign),     all(platen.k_glass),
+      all(platen.kt_glass), all(platen.per_overlap),    all(platen.friction), all(platen.damping),
+      all(platen.dt),       all(platen.half_damping_dt)};
   const LanesPerQuantum lanes_per = {all(per.force), all(per.torque), all(per.energy)};
   WholeLanes force = {hn::Zero(tag)}, damped = force, slipped = force;
   for (PlatenBlock& block : near)
@@ -78,7 +79,7 @@ PlatenTotals PressBeads(AlignedVector<PlatenBlock>& near, BeadTable& beads,
       bead.velocity = columns_of(beads.motion.data() + 4, rows).xyz;
       bead.spin = columns_of(beads.spin.data(), rows).xyz;
       PlatenShares shares;
-      advance_bead(given, lanes_per, bead, block.columns, lane, shares);
+      advance_bead(given, parts, lanes_per, bead, block.columns, lane, shares);
       add_rows(shares, rows, beads.sums.data());
       force = force + shares.normal, damped = damped + shares.damped, slipped = slipped + shares.slipped;
     }
@@ -86,14 +87,15 @@ PlatenTotals PressBeads(AlignedVector<PlatenBlock>& near, BeadTable& beads,
   return {sum(force), sum(damped), sum(slipped)};
 }
 
-void PressSideBySide(SidePlaten& platen, SideBeads& beads, const SideLaw& law, BlockOf<std::int64_t>& force,
-                     SideTotals& totals) {
+void PressSideBySide(SidePlaten& platen, SideBeads& beads, const SideLaw& law, LawParts parts,
+                     BlockOf<std::int64_t>& force, SideTotals& totals) {
   const PlatenNumbers<BlockOf<double>>& of = platen.numbers;
   for (std::size_t lane = 0; lane < kRuns; lane += kLanes) {
-    const PlatenNumbers<Lanes> given = {
-        load(of.z + lane),       load(of.velocity + lane), load(of.sign + lane),
-        load(of.k_glass + lane), load(of.kt_glass + lane), load(of.friction + lane),
-        load(of.damping + lane), load(of.dt + lane),       load(of.half_damping_dt + lane)};
+    const PlatenNumbers<Lanes> given = {load(of.z + lane),        load(of.velocity + lane),
+                                        load(of.sign + lane),     load(of.k_glass + lane),
+                                        load(of.kt_glass + lane), load(of.per_overlap + lane),
+                                        load(of.friction + lane), load(of.damping + lane),
+                                        load(of.dt + lane),       load(of.half_damping_dt + lane)};
     const LanesPerQuantum per = {load(law.per_force + lane), load(law.per_torque + lane),
                                  load(law.per_energy + lane)};
     for (const std::uint32_t row : platen.near) {
@@ -103,7 +105,7 @@ void PressSideBySide(SidePlaten& platen, SideBeads& beads, const SideLaw& law, B
       bead.velocity = {load(one.vx + lane), load(one.vy + lane), load(one.vz + lane)};
       bead.spin = {load(one.wx + lane), load(one.wy + lane), load(one.wz + lane)};
       PlatenShares shares;
-      advance_bead(given, per, bead, platen.beads[row], lane, shares);
+      advance_bead(given, parts, per, bead, platen.beads[row], lane, shares);
       SideSums& on = beads.sums[row];
       add_to(shares.force.x, on.fx + lane), add_to(shares.force.y, on.fy + lane),
           add_to(shares.force.z, on.fz + lane);
@@ -127,13 +129,13 @@ HWY_EXPORT(PressSideBySide);
 }  // namespace
 
 PlatenTotals press_beads(AlignedVector<PlatenBlock>& near, BeadTable& beads,
-                         const PlatenNumbers<double>& platen, const PerQuantum& per) {
-  return HWY_DYNAMIC_DISPATCH(PressBeads)(near, beads, platen, per);
+                         const PlatenNumbers<double>& platen, LawParts parts, const PerQuantum& per) {
+  return HWY_DYNAMIC_DISPATCH(PressBeads)(near, beads, platen, parts, per);
 }
 
-void press_side_by_side(SidePlaten& platen, SideBeads& beads, const SideLaw& law,
+void press_side_by_side(SidePlaten& platen, SideBeads& beads, const SideLaw& law, LawParts parts,
                         BlockOf<std::int64_t>& force, SideTotals& totals) {
-  HWY_DYNAMIC_DISPATCH(PressSideBySide)(platen, beads, law, force, totals);
+  HWY_DYNAMIC_DISPATCH(PressSideBySide)(platen, beads, law, parts, force, totals);
 }
 
 }  // namespace pendular::dem_core

@@ -16,10 +16,10 @@ struct PlatenTotals {
   std::int64_t damped = 0, slipped = 0;
 };
 PlatenTotals press_beads(AlignedVector<PlatenBlock>& near, BeadTable& beads,
-                         const PlatenNumbers<double>& platen, const PerQuantum& per);
+                         const PlatenNumbers<double>& platen, LawParts parts, const PerQuantum& per);
 
 /// Adds to the totals of each run, of the force on the platen to `force`.
-void press_side_by_side(SidePlaten& platen, SideBeads& beads, const SideLaw& law,
+void press_side_by_side(SidePlaten& platen, SideBeads& beads, const SideLaw& law, LawParts parts,
                         BlockOf<std::int64_t>& force, SideTotals& totals);
 
 }  // namespace pendular::dem_core

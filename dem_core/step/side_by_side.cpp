@@ -37,8 +37,8 @@ void SideBySide::press_platens() {
     bottom_.numbers.velocity[run] = runs_[run]->bottom.velocity;
     top_.numbers.velocity[run] = runs_[run]->top.velocity;
   }
-  press_side_by_side(bottom_, beads_, law_, totals_.bottom, totals_);
-  press_side_by_side(top_, beads_, law_, totals_.top, totals_);
+  press_side_by_side(bottom_, beads_, law_, parts_, totals_.bottom, totals_);
+  press_side_by_side(top_, beads_, law_, parts_, totals_.top, totals_);
 }
 
 /// Breaks are taken when all beads have moved, those of a run in the order of its pairs.

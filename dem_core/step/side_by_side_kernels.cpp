@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t kParts = kRuns / kLanes;
 
 Constants constants(const SideLaw& law, std::size_t lane, LawParts parts) {
-  return {{load(law.k_glass + lane), load(law.kt_glass + lane), load(law.friction + lane),
-           load(law.damping + lane), load(law.dt + lane), load(law.half_dt + lane),
+  return {{load(law.k_glass + lane), load(law.kt_glass + lane), load(law.per_overlap + lane),
+           load(law.friction + lane), load(law.damping + lane), load(law.dt + lane), load(law.half_dt + lane),
            load(law.half_damping_dt + lane)},
           parts,
           {load(law.per_force + lane), load(law.per_torque + lane), load(law.per_energy + lane)}};

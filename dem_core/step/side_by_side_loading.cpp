@@ -12,7 +12,7 @@ constexpr std::size_t kOutOfOrder = 8;  // one pair in so many, and the tables a
 
 bool same_parts(const LawParameters& a, const LawParameters& b) {
   return a.one_spring == b.one_spring && a.bond_friction_limit == b.bond_friction_limit &&
-         a.bending == b.bending;
+         a.bending == b.bending && (a.hertz_overlap > 0.0) == (b.hertz_overlap > 0.0);
 }
 
 std::vector<IndexPair> pairs_of_all(std::span<Simulation* const> simulations) {
@@ -108,9 +108,9 @@ void SideBySide::load_beads(std::size_t run, const Simulation& from) {
 
 void SideBySide::load_law(std::size_t run) {
   const Simulation& simulation = *runs_[run];
-  const auto [k_glass, kt_glass, friction, damping, dt, half_dt, half_damping_dt] =
+  const auto [k_glass, kt_glass, per_overlap, friction, damping, dt, half_dt, half_damping_dt] =
       numbers(simulation.law, simulation.dt);
-  law_.k_glass[run] = k_glass, law_.kt_glass[run] = kt_glass;
+  law_.k_glass[run] = k_glass, law_.kt_glass[run] = kt_glass, law_.per_overlap[run] = per_overlap;
   law_.friction[run] = friction, law_.damping[run] = damping;
   law_.dt[run] = dt, law_.half_dt[run] = half_dt, law_.half_damping_dt[run] = half_damping_dt;
   const PerQuantum per = per_quantum(quanta_[run]);
@@ -123,11 +123,11 @@ void SideBySide::load_law(std::size_t run) {
 }
 
 void SideBySide::load_platen(std::size_t run, const Platen& from, SidePlaten& platen) {
-  const auto [z, velocity, sign, k_glass, kt_glass, friction, damping, dt, half_damping_dt] =
+  const auto [z, velocity, sign, k_glass, kt_glass, per_overlap, friction, damping, dt, half_damping_dt] =
       platen_numbers(from, runs_[run]->law, runs_[run]->dt);
   auto& to = platen.numbers;
   to.z[run] = z, to.velocity[run] = velocity, to.sign[run] = sign;
-  to.k_glass[run] = k_glass, to.kt_glass[run] = kt_glass;
+  to.k_glass[run] = k_glass, to.kt_glass[run] = kt_glass, to.per_overlap[run] = per_overlap;
   to.friction[run] = friction, to.damping[run] = damping;
   to.dt[run] = dt, to.half_damping_dt[run] = half_damping_dt;
   for (std::size_t row = 0; row < bead_of_.size(); ++row)

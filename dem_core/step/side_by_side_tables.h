@@ -54,7 +54,7 @@ struct SidePlaten {
 
 /// LawNumbers and what a number has over one quantum, of each run.
 struct alignas(64) SideLaw {
-  BlockOf<double> k_glass, kt_glass, friction, damping, dt, half_dt, half_damping_dt;
+  BlockOf<double> k_glass, kt_glass, per_overlap, friction, damping, dt, half_dt, half_damping_dt;
   BlockOf<double> per_force, per_torque, per_energy;
 };
 

@@ -206,11 +206,11 @@ void advance(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<
              const PerQuantum& per) {
   const WholeLanes::Tag tag;
   const Lanes zero = {hn::Zero(Lanes::Tag())};
-  const Constants given = {
-      {same(law.k_glass, zero), same(law.kt_glass, zero), same(law.friction, zero), same(law.damping, zero),
-       same(law.dt, zero), same(law.half_dt, zero), same(law.half_damping_dt, zero)},
-      parts,
-      {same(per.force, zero), same(per.torque, zero), same(per.energy, zero)}};
+  const Constants given = {{same(law.k_glass, zero), same(law.kt_glass, zero), same(law.per_overlap, zero),
+                            same(law.friction, zero), same(law.damping, zero), same(law.dt, zero),
+                            same(law.half_dt, zero), same(law.half_damping_dt, zero)},
+                           parts,
+                           {same(per.force, zero), same(per.torque, zero), same(per.energy, zero)}};
   Losses losses = {{hn::Zero(tag)}, {hn::Zero(tag)}};
   advance<PairKind::apart, bending>(pairs, beads, chunk.first_block, chunk.touchable, given, chunk, losses);
   advance<PairKind::touchable, bending>(pairs, beads, chunk.touchable, chunk.loose, given, chunk, losses);

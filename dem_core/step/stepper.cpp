@@ -168,8 +168,9 @@ void Stepper::change_bonds(const BondEvolution& evolution, double elapsed) {
 
 void Stepper::press_platens(Chunk& chunk) {
   const auto press = [&](const Platen& platen, AlignedVector<PlatenBlock>& near, std::int64_t& force) {
-    const PlatenTotals total = press_beads(
-        near, beads_, platen_numbers(platen, simulation_.law, simulation_.dt), per_quantum(quanta_));
+    const PlatenTotals total =
+        press_beads(near, beads_, platen_numbers(platen, simulation_.law, simulation_.dt),
+                    parts(simulation_.law), per_quantum(quanta_));
     force = total.force;
     add(chunk.damped, total.damped), add(chunk.slipped, total.slipped);
   };

@@ -40,6 +40,7 @@ SampleValue other_value(const std::string& name) {
   static const std::map<std::string, SampleValue> special = {
       {"beads.diameters", "measured"},
       {"bridges.stiffness", "per_bridge"},
+      {"contact.glass", "hertz"},
       {"contact.tangential_springs", "one"},
       {"compression.control", "stress"},
       {"compression.unload_at", std::vector{0.01, 0.02}},
@@ -211,6 +212,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSample{"Syntax", "[beads\n", "s.toml:1"},
         BadSample{"CutWord", "[contact]\nbond_friction_limit = fal\n", "saw 'fal '"},
         BadSample{"Word", "[contact]\ntangential_springs = \"three\"\n", "\"one\", \"two\""},
+        BadSample{"Glass", "[contact]\nglass = \"mindlin\"\n", "\"linear\", \"hertz\""},
         BadSample{"TopLevel", "diameter_um = 3\n", "section"},
         BadSample{"Unload", "[compression]\nunload_at = [0.02, 0.01]\n", "rising"},
         BadSample{"Shape", "[specimen]\nshape = \"cube\"\n", "cylinder"},

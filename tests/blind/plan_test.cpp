@@ -53,6 +53,16 @@ TEST(Plan, ASplitWithoutOtherEnginesStaysAsItWas) {
   for (const auto& plan : plans) EXPECT_TRUE(plan.engine.empty());
 }
 
+TEST(Plan, CasesShareOutWhatIsObserved) {
+  Split split = sealed_split();
+  split.cases = 400;
+  split.observed = {0.0, 0.0, 0.25, 0.75};
+  std::map<Observed, int> observed;
+  for (const auto& plan : plan_of(split)) ++observed[plan.observed];
+  EXPECT_EQ(observed.size(), 2u);
+  EXPECT_NEAR(observed[Observed::second_specimen], 100, 26);  // three standard deviations
+}
+
 TEST(Plan, EnginesTakeTurnsAndAThirdOfTheirCasesHasNoEffect) {
   Split split = sealed_split();
   split.cases = 100;

@@ -33,7 +33,7 @@ std::string refusal(const std::string& what, const std::string& by) {
 }  // namespace
 
 TEST(Split, ReadsEveryCommittedFile) {
-  for (const char* name : {"development2", "sealed2", "sealed", "small"}) {
+  for (const char* name : {"development2", "development4", "sealed2", "sealed", "small"}) {
     const Split split = read_split(
         fs::path(pendular::test::source_folder()) / "samples/blind" / (std::string(name) + ".toml"), {});
     EXPECT_EQ(split.name, name);
@@ -58,6 +58,8 @@ TEST(Split, RefusesWhatItCannotUse) {
   EXPECT_NE(refusal("cases = 3", "cases = 0").find("split.cases"), std::string::npos);
   EXPECT_NE(refusal("outside = 1", "outsid = 1").find("\"outside\""), std::string::npos);
   EXPECT_NE(refusal("outside = 1", "outside = -1").find("outside"), std::string::npos);
+  EXPECT_NE(refusal("[test]", "[observed]\nscans = 1\n[test]").find("\"scan\""), std::string::npos);
+  EXPECT_NE(refusal("[test]", "[observed]\nscan = 0\n[test]").find("no share above 0"), std::string::npos);
   EXPECT_NE(refusal("unload_at = 0.01", "unload_at = 0.03").find("unload_at"), std::string::npos);
   EXPECT_NE(refusal("\"contact.friction\"", "\"contact.fricton\"").find("\"contact.friction\""),
             std::string::npos);

@@ -41,6 +41,28 @@ TEST(Compress, ChainOfBondsHasTheStiffnessOfSpringsInSeries) {
   EXPECT_NEAR(last.stress_bottom, last.stress, 0.02 * last.stress);
 }
 
+TEST(Compress, TouchingColumnsOfHertzianBeadsPressAsStrainToThreeHalves) {
+  // Per column two platen contacts and 5 between beads, alike but for the bonds that go on below touch:
+  // F = K o^3/2 at platens, F = K p^3/2 + kn p between beads, 2 o + 5 p = travel.
+  Sample sample = sample_a();
+  sample.contact.glass = Glass::hertz;
+  sample.contact.damping_fraction = 0.5;
+  sample.compression.max_strain = 2e-3;
+  sample.compression.speed = 2e-6;
+  ScratchFolder folder;
+  const CompressResult result = compress(columns(3, 6, 0.0), sample, folder / "run", {});
+  const CurveRow& last = result.rows.back();
+  const double k = 57600.0 / std::sqrt(0.005 * sample.beads.diameter), travel = last.strain * 6 * 200.9e-6;
+  double low = 0.0, high = travel;  // overlap of a pair
+  for (int step = 0; step < 60; ++step) {
+    const double p = 0.5 * (low + high), force = k * std::pow(p, 1.5) + 5760.0 * p;
+    (2.0 * std::pow(force / k, 2.0 / 3.0) + 5.0 * p < travel ? low : high) = p;
+  }
+  const double force = k * std::pow(low, 1.5) + 5760.0 * low, section = 0.25 * M_PI * 4.25e-3 * 4.25e-3;
+  EXPECT_NEAR(last.stress, 9.0 * force / section, 0.02 * last.stress);
+  EXPECT_LT(std::fabs(result.result["work_balance"]["relative_error"].get<double>()), 2e-3);
+}
+
 TEST(Compress, BridgesOfDifferentGapsAreDifferentSpringsInSeries) {
   // One column of five beads whose gaps are 2, 6, 10 and 4 µm, each bridge with its own kn by finite
   // elements.

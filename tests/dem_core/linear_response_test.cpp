@@ -172,6 +172,26 @@ TEST(LinearResponse, GlassTakesOverWhereAGapIsClosed) {
   EXPECT_EQ(response.contacts.touching, 4);
 }
 
+TEST(LinearResponse, FollowsHertzianGlass) {
+  // As above, F = kn travel of the pair + K overlap^3/2 between the beads and K o^3/2 at each platen.
+  Sample sample = sticking();
+  sample.contact.glass = Glass::hertz;
+  const Simulation simulation = build_simulation(columns(2, 2, 0.0), sample);
+  const double strain = 0.01, travel = strain * simulation.initial_height;
+  const double k = kGlass / std::sqrt(0.005 * sample.beads.diameter);
+  double low = 0.0, high = travel;
+  for (int step = 0; step < 60; ++step) {
+    const double p = 0.5 * (low + high), force = k * std::pow(p, 1.5) + kBond * p;
+    (2.0 * std::pow(force / k, 2.0 / 3.0) + p < travel ? low : high) = p;
+  }
+  const double force = k * std::pow(low, 1.5) + kBond * low, o = std::pow(force / k, 2.0 / 3.0);
+  const double stiffness = 1.0 / (2.0 / (1.5 * k * std::sqrt(o)) + 1.0 / (1.5 * k * std::sqrt(low) + kBond));
+  const LinearResponse response = linear_response(simulation, {strain});
+  const double modulus = 4.0 * stiffness * simulation.initial_height / simulation.section;
+  EXPECT_NEAR(response.stress, 4.0 * force / simulation.section, 1e-3 * response.stress);
+  EXPECT_NEAR(response.modulus, modulus, 1e-3 * modulus);
+}
+
 TEST(LinearResponse, AgreesWithADenseDirectSolve) {
   const Simulation simulation = closed_at_rest();
   const SpringNetwork network = spring_network(simulation);

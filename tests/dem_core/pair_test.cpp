@@ -91,6 +91,64 @@ TEST(Pair, DampedReboundHasTheClosedFormRestitution) {
   EXPECT_NEAR(damped, before - two.kinetic(), 1e-3 * before);
 }
 
+/// Soda-lime glass: modulus of two equal beads against each other, and F = K overlap^3/2 (Hertz 1881).
+constexpr double kPlainModulus = 70e9 / (2.0 * (1.0 - 0.22 * 0.22));
+const double kHertz = 4.0 / 3.0 * kPlainModulus * std::sqrt(0.5 * kRadius);
+
+LawParameters hertz_glass() {
+  LawParameters law = glass();
+  law.hertz_overlap = 1e-6;
+  law.k_glass = kHertz * std::sqrt(law.hertz_overlap);
+  return law;
+}
+
+TEST(Pair, GlassAfterHertzHasHisForce) {
+  const LawParameters law = hertz_glass();
+  for (double overlap : {1e-9, 1e-7, 1e-6, 3e-6}) {
+    const double expected = kHertz * std::pow(overlap, 1.5);
+    EXPECT_NEAR(contact_force(-overlap, 0.0, law), expected, 1e-9 * expected);
+  }
+  EXPECT_EQ(contact_force(1e-7, 0.0, law), 0.0);
+}
+
+TEST(Pair, HertzianImpactLastsAsLongAsItShould) {
+  // Johnson, Contact Mechanics (1985), eqs. 11.23 and 11.24: 2.94 times the largest overlap over the speed.
+  const double speed = 0.02, reduced = 0.5 * kMass;
+  const double overlap = std::pow(1.25 * reduced * speed * speed / kHertz, 0.4);
+  const double lasts = 2.9432 * overlap / speed, dt = lasts / 20000;
+  TwoBeads two;
+  two.i.velocity.z() = -0.5 * speed, two.j.velocity.z() = 0.5 * speed;
+  const LawParameters law = hertz_glass();
+  double deepest = 0.0, time = 0.0;
+  do {
+    two.step({}, law, dt);
+    deepest = std::max(deepest, -two.gap());
+    time += dt;
+  } while (two.gap() < 0.0);
+  EXPECT_NEAR(deepest, overlap, 1e-3 * overlap);
+  EXPECT_NEAR(time, lasts, 1e-3 * lasts);
+  EXPECT_NEAR(two.i.velocity.z(), 0.5 * speed, 1e-4 * speed);
+}
+
+TEST(Pair, NormalForceIsTheSlopeOfItsEnergy) {
+  for (const LawParameters& law : {glass(), hertz_glass()})
+    for (const double rest : {3e-6, -0.5e-6})
+      for (const double gap : {6e-6, 1e-6, -0.2e-6, -0.8e-6, -2e-6}) {
+        const PairProperties pair = bond(rest);
+        const auto energy = [&](double at) {
+          return pair_energy(Vec3(0, 0, 2 * kRadius + at), 2 * kRadius, pair, {}, law);
+        };
+        const double d = 1e-10, force = normal_force(gap, pair, law);
+        EXPECT_NEAR(force, (energy(gap - d) - energy(gap + d)) / (2 * d), 1e-4 * std::fabs(force) + 1e-5)
+            << law.hertz_overlap << " " << rest << " " << gap;
+        if (gap < pair.touch) {
+          EXPECT_NEAR(normal_stiffness(gap, pair, law),
+                      (normal_force(gap - d, pair, law) - normal_force(gap + d, pair, law)) / (2 * d),
+                      1e-4 * normal_stiffness(gap, pair, law));
+        }
+      }
+}
+
 TEST(Pair, SlidingImpactLosesTangentialVelocityByCoulomb) {
   // While the pair slides throughout, the tangential impulse is μ times the normal one (Chung & Ooi 2011,
   // test 4 at grazing incidence): per bead Δv_t = μ Δv_n = 2 μ v_n, and the spin gained is 5/2 Δv_t / R.

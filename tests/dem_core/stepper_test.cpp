@@ -26,6 +26,7 @@ struct Law {
   bool bond_friction_limit;
   double k_bend;
   double stiffness_ratio = 10.0;
+  Glass glass = Glass::linear;
 };
 
 /// The kernels of one instruction set against the loop that anyone can read.
@@ -40,6 +41,7 @@ TEST_P(Kernel, AgreesWithTheReferenceLoop) {
   sample.contact.tangential_springs = law.springs;
   sample.contact.bond_friction_limit = law.bond_friction_limit;
   sample.contact.stiffness_ratio = law.stiffness_ratio;
+  sample.contact.glass = law.glass;
   Simulation fast = violent(sample, disordered(4, 4), law.k_bend);
   Simulation slow = fast;
   Stepper stepper(fast);
@@ -84,7 +86,10 @@ INSTANTIATE_TEST_SUITE_P(
                                      Law{"OneSpring", TangentialSprings::one, false, 0.0},
                                      Law{"OneSpringCoulomb", TangentialSprings::one, true, 0.0},
                                      Law{"Bending", TangentialSprings::two, false, 3e-6},
-                                     Law{"SoftGlass", TangentialSprings::two, false, 0.0, 0.01})),
+                                     Law{"SoftGlass", TangentialSprings::two, false, 0.0, 0.01},
+                                     Law{"Hertz", TangentialSprings::two, false, 0.0, 10.0, Glass::hertz},
+                                     Law{"HertzOneSpring", TangentialSprings::one, true, 0.0, 10.0,
+                                         Glass::hertz})),
     [](const auto& test) { return std::get<0>(test.param) + std::get<1>(test.param).name; });
 
 TEST(Stepper, RenumberedBeadsMoveTheSame) {
