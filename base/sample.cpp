@@ -115,6 +115,11 @@ const std::vector<std::string>& words_for<StiffnessOf>() {
   return words;
 }
 template <>
+const std::vector<std::string>& words_for<Breaking>() {
+  static const std::vector<std::string> words = {"griffith", "limits"};
+  return words;
+}
+template <>
 const std::vector<std::string>& words_for<Glass>() {
   static const std::vector<std::string> words = {"linear", "hertz"};
   return words;
@@ -136,6 +141,9 @@ std::string to_string(Diameters value) {
 std::string to_string(StiffnessOf value) {
   return words_for<StiffnessOf>().at(static_cast<std::size_t>(value));
 }
+std::string to_string(Breaking value) {
+  return words_for<Breaking>().at(static_cast<std::size_t>(value));
+}
 std::string to_string(Glass value) {
   return words_for<Glass>().at(static_cast<std::size_t>(value));
 }
@@ -153,6 +161,7 @@ const std::vector<WordKey>& word_keys() {
   static const std::vector<WordKey> keys = {
       {"beads.diameters", PENDULAR_WORD(Diameters, beads.diameters)},
       {"bridges.stiffness", PENDULAR_WORD(StiffnessOf, bridges.stiffness)},
+      {"bridges.breaking", PENDULAR_WORD(Breaking, bridges.breaking)},
       {"contact.glass", PENDULAR_WORD(Glass, contact.glass)},
       {"contact.tangential_springs", PENDULAR_WORD(TangentialSprings, contact.tangential_springs)},
       {"compression.control", PENDULAR_WORD(Control, compression.control)},

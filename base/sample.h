@@ -39,6 +39,7 @@ struct Sample {
     std::optional<double> normal_stiffness;  ///< kn, N/m
     std::optional<double> tangential_stiffness;  ///< kt, N/m
     StiffnessOf stiffness = StiffnessOf::one;
+    Breaking breaking = Breaking::griffith;
   } bridges;
 
   struct Contact {

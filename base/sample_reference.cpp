@@ -20,6 +20,10 @@ const std::map<std::string, std::string> kMeanings = {
      "by finite elements, where no stiffness is stated: `one`, the mean bridge's for all bonds; "
      "`per_bridge`, "
      "each bridge's own"},
+    {"bridges.breaking",
+     "of bonds: `griffith`, an energy of tension, compression and shear together, as in the paper; `limits`, "
+     "one of tension "
+     "or one of shear ([model.md](model.md))"},
     {"contact.glass",
      "normal force of glass on glass: `linear`; `hertz`, as the overlap to 3/2, the same force at an overlap "
      "of D/200 "

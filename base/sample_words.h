@@ -21,6 +21,12 @@ enum class StiffnessOf {
   per_bridge,  ///< each from its own gap and diameter
 };
 
+/// When a bond breaks.
+enum class Breaking {
+  griffith,  ///< at an energy of tension, compression and shear together, as the paper
+  limits,    ///< at a limit of tension or one of shear: where that criterion has its ends
+};
+
 /// The normal force of glass on glass.
 enum class Glass {
   linear,  ///< k_glass times the overlap
@@ -48,6 +54,8 @@ const std::vector<std::string>& words_for<Diameters>();
 template <>
 const std::vector<std::string>& words_for<StiffnessOf>();
 template <>
+const std::vector<std::string>& words_for<Breaking>();
+template <>
 const std::vector<std::string>& words_for<Glass>();
 template <>
 const std::vector<std::string>& words_for<TangentialSprings>();
@@ -56,6 +64,7 @@ const std::vector<std::string>& words_for<Control>();
 
 std::string to_string(Diameters value);
 std::string to_string(StiffnessOf value);
+std::string to_string(Breaking value);
 std::string to_string(Glass value);
 std::string to_string(TangentialSprings value);
 std::string to_string(Control value);

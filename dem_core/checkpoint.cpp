@@ -108,7 +108,7 @@ void visit(Archive& a, BeadStates& b) {
 template <typename Archive>
 void visit(Archive& a, LawParameters& l) {
   fields(a, l.k_glass, l.kt_glass, l.hertz_overlap, l.friction, l.platen_friction, l.damping, l.one_spring,
-         l.bond_friction_limit, l.bending);
+         l.bond_friction_limit, l.bending, l.separate_limits);
 }
 
 template <typename Archive>

@@ -54,6 +54,7 @@ LawParameters law_parameters(const Sample& sample, const micromechanics::BondSti
   // Critical damping of two mean beads in touch: 2 √(k m/2).
   law.damping = sample.contact.damping_fraction * 2.0 * std::sqrt(law.k_glass * 0.5 * mean_mass);
   if (sample.contact.glass == Glass::hertz) law.hertz_overlap = kHertzOverlap * sample.beads.diameter;
+  law.separate_limits = sample.bridges.breaking == Breaking::limits;
   law.one_spring = sample.contact.tangential_springs == TangentialSprings::one;
   law.bond_friction_limit = sample.contact.bond_friction_limit;
   return law;

@@ -23,10 +23,10 @@ constexpr std::size_t kLeastSideBySide = 6;
 /// What runs have in common that can be made side by side, as far as their requests tell.
 std::string kind_of(const RunRequest& request) {
   const Sample& sample = request.sample;
-  return fmt::format("{} {} {} {} {} {} {} {}", sample.specimen.diameter, sample.specimen.height,
+  return fmt::format("{} {} {} {} {} {} {} {} {}", sample.specimen.diameter, sample.specimen.height,
                      sample.compression.max_strain, static_cast<int>(sample.compression.control),
                      static_cast<int>(sample.contact.tangential_springs), sample.contact.bond_friction_limit,
-                     static_cast<int>(sample.contact.glass),
+                     static_cast<int>(sample.contact.glass), static_cast<int>(sample.bridges.breaking),
                      request.packing.sha256.empty() ? packing_hash(request) : "");
 }
 

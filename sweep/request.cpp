@@ -47,8 +47,9 @@ std::string request_text(const RunRequest& request) {
     packing["sha256"] = request.packing.sha256;
   nlohmann::ordered_json sample;
   for (const auto& [key, value] : sample_settings(request.sample)) {
-    // Stores are older than this key: without it a request is that of linear glass.
-    if (key == "contact.glass" && request.sample.contact.glass == Glass::linear) continue;
+    // Stores are older than these keys: a request without them has what they have by default.
+    if (key == "contact.glass" && request.sample.contact.glass == Sample{}.contact.glass) continue;
+    if (key == "bridges.breaking" && request.sample.bridges.breaking == Sample{}.bridges.breaking) continue;
     std::visit([&, name = key](const auto& held) { sample[name] = held; }, value);
   }
   nlohmann::ordered_json json = {{"model", kModelVersion},

@@ -97,11 +97,12 @@ struct LawParameters {
   bool one_spring = false;          ///< one tangential spring whose stiffness changes at touch
   bool bond_friction_limit = true;  ///< Coulomb limit on the bond's tangential force too
   bool bending = false;             ///< some bond has a bending or twisting stiffness
+  bool separate_limits = false;     ///< bonds break at a limit of tension or one of shear
 };
 
 /// Which parts of the law are at work; the same for all pairs of a specimen.
 struct LawParts {
-  bool one_spring, bond_friction_limit, bending, hertz;
+  bool one_spring, bond_friction_limit, bending, hertz, separate_limits;
 };
 
 /// The normal force of glass on glass.

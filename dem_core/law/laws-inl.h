@@ -79,11 +79,15 @@ HWY_INLINE Real limit_slip(const Triple<Real>& before, Triple<Real>& slip, Real 
   return lost;
 }
 
-/// Griffith's criterion (paper, eq. 4): Δr_n² + |δt|²/12 ≥ 2 G l / E_p.
+/// Griffith's criterion (paper, eq. 4): Δr_n² + |δt|²/12 ≥ 2 G l / E_p. With separate limits one of both
+/// terms alone, the first in tension only.
 template <typename Real>
-HWY_INLINE auto breaks(Real gap, const Triple<Real>& bond_slip, const PairData<Real>& pair) {
-  const Real stretch = gap - pair.rest;
-  return mul_add(stretch, stretch, same(1.0 / 12.0, gap) * dot(bond_slip, bond_slip)) >= pair.break_limit;
+HWY_INLINE auto breaks(Real gap, const Triple<Real>& bond_slip, const PairData<Real>& pair,
+                       bool separate_limits) {
+  const Real stretch = gap - pair.rest, shear = same(1.0 / 12.0, gap) * dot(bond_slip, bond_slip);
+  if (!separate_limits) return mul_add(stretch, stretch, shear) >= pair.break_limit;
+  const Real tension = larger(stretch, same(0.0, gap));
+  return larger(tension * tension, shear) >= pair.break_limit;
 }
 
 /// Moment of a bent and twisted bond on bead i; `turn` is the rotation of i against j since the start, rad.

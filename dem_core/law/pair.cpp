@@ -43,8 +43,9 @@ double normal_stiffness(double gap, const PairProperties& pair, const LawParamet
   return glass.hertz ? pair.kn + 1.5 * law::glass_secant(pair.touch - gap, glass) : glass.k;
 }
 
-bool breaks(double gap, const PairProperties& pair, const PairHistory& history) {
-  return pair.kn > 0.0 && law::breaks(gap, history.bond_slip, pair);
+bool breaks(double gap, const PairProperties& pair, const PairHistory& history,
+            const LawParameters& parameters) {
+  return pair.kn > 0.0 && law::breaks(gap, history.bond_slip, pair, parameters.separate_limits);
 }
 
 double pair_energy(const Vec3& apart, double radii, const PairProperties& pair, const PairHistory& history,

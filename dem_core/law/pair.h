@@ -26,7 +26,7 @@ inline LawNumbers<double> numbers(const LawParameters& law, double dt) {
           law.damping, dt,           0.5 * dt,         0.5 * law.damping * dt};
 }
 inline LawParts parts(const LawParameters& law) {
-  return {law.one_spring, law.bond_friction_limit, law.bending, law.hertz_overlap > 0.0};
+  return {law.one_spring, law.bond_friction_limit, law.bending, law.hertz_overlap > 0.0, law.separate_limits};
 }
 
 /// One bead as its pairs see it; SI.
@@ -64,8 +64,8 @@ double normal_force(double gap, const PairProperties& pair, const LawParameters&
 /// By how much that force falls as the gap of touching glass grows, N/m.
 double normal_stiffness(double gap, const PairProperties& pair, const LawParameters& law);
 
-/// Whether a standing bond breaks (Griffith's criterion).
-bool breaks(double gap, const PairProperties& pair, const PairHistory& history);
+/// Whether a standing bond breaks.
+bool breaks(double gap, const PairProperties& pair, const PairHistory& history, const LawParameters& law);
 
 /// Energy stored in a pair's springs, J; `apart` is r_i − r_j, `radii` the sum of both.
 double pair_energy(const Vec3& apart, double radii, const PairProperties& pair, const PairHistory& history,

@@ -131,7 +131,7 @@ JointState state_at(const Joint& joint, const Closure& closure, const SpringNetw
   }
   PairHistory history;
   history.bond_slip = triple(bond_slip);
-  state.breaks = breaks(gap, joint.law, history);
+  state.breaks = breaks(gap, joint.law, history, law);
   return state;
 }
 

@@ -122,7 +122,7 @@ HWY_INLINE LaneMask advance_lanes(PairColumns& block, ContactBlock* contact, Ben
   }
   losses.damped = losses.damped + nearest(action.damped, given.per.energy);
   losses.slipped = losses.slipped + nearest(action.slipped, given.per.energy);
-  return both(data.kn > zero, breaks(seen.gap, memory.bond_slip, data));
+  return both(data.kn > zero, breaks(seen.gap, memory.bond_slip, data, parts.separate_limits));
 }
 
 /// Whether the glass of these lanes is apart and was in the last step, so that it neither does nor remembers

@@ -16,7 +16,8 @@ void reference_step(Simulation& simulation) {
     torque[pair.j] += torque_on_j(action, beads.radius[pair.j]);
     simulation.work.damped += action.damped;
     simulation.work.slipped += action.slipped;
-    if (breaks(gap(simulation, pair), pair.properties, pair.history)) breaking.push_back(&pair);
+    if (breaks(gap(simulation, pair), pair.properties, pair.history, simulation.law))
+      breaking.push_back(&pair);
   }
   for (Platen* platen : {&simulation.bottom, &simulation.top}) {
     platen->force = 0.0;

@@ -12,7 +12,8 @@ constexpr std::size_t kOutOfOrder = 8;  // one pair in so many, and the tables a
 
 bool same_parts(const LawParameters& a, const LawParameters& b) {
   return a.one_spring == b.one_spring && a.bond_friction_limit == b.bond_friction_limit &&
-         a.bending == b.bending && (a.hertz_overlap > 0.0) == (b.hertz_overlap > 0.0);
+         a.bending == b.bending && (a.hertz_overlap > 0.0) == (b.hertz_overlap > 0.0) &&
+         a.separate_limits == b.separate_limits;
 }
 
 std::vector<IndexPair> pairs_of_all(std::span<Simulation* const> simulations) {

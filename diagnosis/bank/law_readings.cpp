@@ -13,6 +13,11 @@ const std::vector<LawReading>& law_readings() {
        }},
       {"bond_friction_limit", "Coulomb's limit on bonds",
        [](Sample& sample) { sample.contact.bond_friction_limit = !sample.contact.bond_friction_limit; }},
+      {"breaking", "one criterion of breaking or two limits",
+       [](Sample& sample) {
+         auto& breaking = sample.bridges.breaking;
+         breaking = breaking == Breaking::griffith ? Breaking::limits : Breaking::griffith;
+       }},
       {"glass", "linear glass or Hertz's",
        [](Sample& sample) {
          auto& glass = sample.contact.glass;

@@ -40,6 +40,7 @@ SampleValue other_value(const std::string& name) {
   static const std::map<std::string, SampleValue> special = {
       {"beads.diameters", "measured"},
       {"bridges.stiffness", "per_bridge"},
+      {"bridges.breaking", "limits"},
       {"contact.glass", "hertz"},
       {"contact.tangential_springs", "one"},
       {"compression.control", "stress"},

@@ -130,25 +130,6 @@ TEST(Pair, HertzianImpactLastsAsLongAsItShould) {
   EXPECT_NEAR(two.i.velocity.z(), 0.5 * speed, 1e-4 * speed);
 }
 
-TEST(Pair, NormalForceIsTheSlopeOfItsEnergy) {
-  for (const LawParameters& law : {glass(), hertz_glass()})
-    for (const double rest : {3e-6, -0.5e-6})
-      for (const double gap : {6e-6, 1e-6, -0.2e-6, -0.8e-6, -2e-6}) {
-        const PairProperties pair = bond(rest);
-        const auto energy = [&](double at) {
-          return pair_energy(Vec3(0, 0, 2 * kRadius + at), 2 * kRadius, pair, {}, law);
-        };
-        const double d = 1e-10, force = normal_force(gap, pair, law);
-        EXPECT_NEAR(force, (energy(gap - d) - energy(gap + d)) / (2 * d), 1e-4 * std::fabs(force) + 1e-5)
-            << law.hertz_overlap << " " << rest << " " << gap;
-        if (gap < pair.touch) {
-          EXPECT_NEAR(normal_stiffness(gap, pair, law),
-                      (normal_force(gap - d, pair, law) - normal_force(gap + d, pair, law)) / (2 * d),
-                      1e-4 * normal_stiffness(gap, pair, law));
-        }
-      }
-}
-
 TEST(Pair, SlidingImpactLosesTangentialVelocityByCoulomb) {
   // While the pair slides throughout, the tangential impulse is μ times the normal one (Chung & Ooi 2011,
   // test 4 at grazing incidence): per bead Δv_t = μ Δv_n = 2 μ v_n, and the spin gained is 5/2 Δv_t / R.
@@ -267,26 +248,48 @@ TEST(Pair, BreaksOnTheEllipse) {
       const double stretch = share * std::sqrt(limit) * std::cos(angle);
       PairHistory history = {};
       history.bond_slip.x = share * std::sqrt(12.0 * limit) * std::sin(angle);
-      EXPECT_EQ(breaks(pair.rest + stretch, pair, history), share > 1.0) << angle;
-      EXPECT_EQ(breaks(pair.rest - stretch, pair, history), share > 1.0)
+      EXPECT_EQ(breaks(pair.rest + stretch, pair, history, glass()), share > 1.0) << angle;
+      EXPECT_EQ(breaks(pair.rest - stretch, pair, history, glass()), share > 1.0)
           << "squared as written: compression counts";
     }
   }
 }
 
+TEST(Pair, SeparateLimitsBreakInTensionOrInShear) {
+  LawParameters law = glass();
+  law.separate_limits = true;
+  PairProperties pair = bond(2e-6);
+  pair.break_limit = 1e-10;  // 10 µm of tension, 10 √12 µm of shear
+  const auto broken = [&](double stretch, double shear) {
+    PairHistory history = {};
+    history.bond_slip = {0.6 * shear, 0.8 * shear, 0.0};
+    return breaks(pair.rest + stretch, pair, history, law);
+  };
+  const double shear = std::sqrt(12e-10);
+  EXPECT_TRUE(broken(1.001e-5, 0.0));
+  EXPECT_TRUE(broken(0.0, 1.001 * shear));
+  EXPECT_FALSE(broken(0.999e-5, 0.999 * shear)) << "no mixed mode";
+  EXPECT_FALSE(broken(-5e-5, 0.0)) << "compression does not break";
+}
+
 TEST(Pair, NormalForceIsMinusTheDerivativeOfItsEnergy) {
   const double h = 1e-11;
-  for (double rest : {0.0, 3e-6, -2e-6}) {
-    const PairProperties pair = bond(rest);
-    for (double gap : {-5e-6, -1e-6, 1e-6, 6e-6}) {
-      const auto energy = [&](double at) {
-        return pair_energy(Vec3(0, 0, 2 * kRadius + at), 2 * kRadius, pair, {}, glass());
-      };
-      const double slope = (energy(gap + h) - energy(gap - h)) / (2 * h);
-      const double force = normal_force(gap, pair, glass());
-      EXPECT_NEAR(-slope, force, 1e-5 * std::fabs(force) + 1e-9) << rest << ' ' << gap;
+  for (const LawParameters& law : {glass(), hertz_glass()})
+    for (double rest : {0.0, 3e-6, -2e-6}) {
+      const PairProperties pair = bond(rest);
+      for (double gap : {-5e-6, -1e-6, 1e-6, 6e-6}) {
+        const auto slope = [&](const auto& of) { return (of(gap + h) - of(gap - h)) / (2 * h); };
+        const auto energy = [&](double at) {
+          return pair_energy(Vec3(0, 0, 2 * kRadius + at), 2 * kRadius, pair, {}, law);
+        };
+        const auto push = [&](double at) { return normal_force(at, pair, law); };
+        EXPECT_NEAR(-slope(energy), push(gap), 1e-5 * std::fabs(push(gap)) + 1e-9) << rest << ' ' << gap;
+        const double stiffness = normal_stiffness(gap, pair, law);
+        if (gap < pair.touch) {
+          EXPECT_NEAR(-slope(push), stiffness, 1e-4 * stiffness) << rest << ' ' << gap;
+        }
+      }
     }
-  }
 }
 
 TEST(Pair, BreakingReleasesTheStoredEnergy) {

@@ -21,6 +21,7 @@ struct BankLaw {
   TangentialSprings springs;
   double k_bend;
   Glass glass = Glass::linear;
+  Breaking breaking = Breaking::griffith;
 };
 
 /// The runs of a bank: one specimen whose beads, diameters, friction, stiffness, bonds and speeds differ.
@@ -31,6 +32,7 @@ std::vector<Simulation> bank(const BankLaw& law, std::size_t size) {
     Sample sample = sample_a();
     sample.contact.tangential_springs = law.springs;
     sample.contact.glass = law.glass;
+    sample.bridges.breaking = law.breaking;
     sample.contact.friction = 0.5 - 0.2 * share;
     sample.bridges.normal_stiffness = 5760.0 * (1.0 - 0.3 * share);
     Packing packing = disordered(3, 3);
@@ -121,14 +123,16 @@ TEST_P(SideBySideRuns, MoveAsEachDoesAlone) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    EverySet, SideBySideRuns,
-    testing::Combine(testing::ValuesIn(instruction_sets()),
-                     testing::Values(BankLaw{"TwoSprings", TangentialSprings::two, 0.0},
-                                     BankLaw{"OneSpring", TangentialSprings::one, 0.0},
-                                     BankLaw{"Bending", TangentialSprings::two, 3e-6},
-                                     BankLaw{"Hertz", TangentialSprings::two, 0.0, Glass::hertz})),
-    [](const auto& test) { return std::get<0>(test.param) + std::get<1>(test.param).name; });
+INSTANTIATE_TEST_SUITE_P(EverySet, SideBySideRuns,
+                         testing::Combine(testing::ValuesIn(instruction_sets()),
+                                          testing::Values(BankLaw{"TwoSprings", TangentialSprings::two, 0.0},
+                                                          BankLaw{"OneSpring", TangentialSprings::one, 0.0},
+                                                          BankLaw{"Bending", TangentialSprings::two, 3e-6},
+                                                          BankLaw{"HertzLimits", TangentialSprings::two, 0.0,
+                                                                  Glass::hertz, Breaking::limits})),
+                         [](const auto& test) {
+                           return std::get<0>(test.param) + std::get<1>(test.param).name;
+                         });
 
 TEST(SideBySide, SuitsRunsOfOneSpecimenOnly) {
   const BankLaw law{"", TangentialSprings::two, 0.0};

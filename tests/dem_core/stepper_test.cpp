@@ -27,6 +27,7 @@ struct Law {
   double k_bend;
   double stiffness_ratio = 10.0;
   Glass glass = Glass::linear;
+  Breaking breaking = Breaking::griffith;
 };
 
 /// The kernels of one instruction set against the loop that anyone can read.
@@ -42,6 +43,7 @@ TEST_P(Kernel, AgreesWithTheReferenceLoop) {
   sample.contact.bond_friction_limit = law.bond_friction_limit;
   sample.contact.stiffness_ratio = law.stiffness_ratio;
   sample.contact.glass = law.glass;
+  sample.bridges.breaking = law.breaking;
   Simulation fast = violent(sample, disordered(4, 4), law.k_bend);
   Simulation slow = fast;
   Stepper stepper(fast);
@@ -88,8 +90,8 @@ INSTANTIATE_TEST_SUITE_P(
                                      Law{"Bending", TangentialSprings::two, false, 3e-6},
                                      Law{"SoftGlass", TangentialSprings::two, false, 0.0, 0.01},
                                      Law{"Hertz", TangentialSprings::two, false, 0.0, 10.0, Glass::hertz},
-                                     Law{"HertzOneSpring", TangentialSprings::one, true, 0.0, 10.0,
-                                         Glass::hertz})),
+                                     Law{"HertzOneSpringLimits", TangentialSprings::one, true, 0.0, 10.0,
+                                         Glass::hertz, Breaking::limits})),
     [](const auto& test) { return std::get<0>(test.param) + std::get<1>(test.param).name; });
 
 TEST(Stepper, RenumberedBeadsMoveTheSame) {
