@@ -17,8 +17,9 @@ namespace {
 constexpr int kGenerated = 6, kMeasured = 12;  // members of an ensemble
 constexpr int kDraws = 3;                      // of effects that draw, at each magnitude
 constexpr int kFiner = 2;                      // magnitudes of effects that do not draw, over those of others
-constexpr int kMoreOfScans = 2;  // members and draws of tests that end at a scan, over those of others
-constexpr int kOfALaw = 4;       // members that are run with the other reading of a law
+constexpr int kMembersOfScans = 4;  // without an effect, of tests that end at a scan, over those of others
+constexpr int kDrawsOfScans = 2;    // of effects that draw, likewise
+constexpr int kOfALaw = 4;          // members that are run with the other reading of a law
 constexpr double kMostBeads = 2000.0, kBankBeads = 1500.0;
 
 const SampleKey& key_of(const std::string& name) {
@@ -88,7 +89,7 @@ class Planner {
   BankPlan plan() {
     members_ = measured_ ? kMeasured : kGenerated;
     const bool scanned = std::any_of(plan_.conditions.begin(), plan_.conditions.end(), ends_at_scan);
-    for (int member = 1; member <= (scanned ? kMoreOfScans : 1) * members_; ++member) {
+    for (int member = 1; member <= (scanned ? kMembersOfScans : 1) * members_; ++member) {
       add({member, "", 0.0, !scaled_, draw_seed(member, 0), member > members_});
       if (scaled_) add({member, "", 0.0, true, draw_seed(member, 0), member > members_});
     }
@@ -120,7 +121,7 @@ class Planner {
     int turn = 0;
     const int levels = effect.draws ? options_.levels : kFiner * options_.levels;
     for (double theta : magnitudes_of(effect, levels, experiment_, scanned))
-      for (int draw = 0; draw < (effect.draws && scanned ? kMoreOfScans : 1) * draws; ++draw) {
+      for (int draw = 0; draw < (effect.draws && scanned ? kDrawsOfScans : 1) * draws; ++draw) {
         const int member = 1 + turn++ % members_;
         add({member,
              effect.id,

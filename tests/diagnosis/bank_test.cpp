@@ -108,7 +108,7 @@ TEST(Bank, AScanOfMeasuredBeadsIsRunTwiceAsOften) {
     if (!ends_at_scan(plan.conditions[condition])) of_curves.insert(plan.points[point].member);
   }
   EXPECT_EQ(of_curves.size(), 12u);  // beads moved by their errors
-  EXPECT_EQ(members.size(), 24u);
+  EXPECT_EQ(members.size(), 48u);
   EXPECT_EQ(draws_of(plan, "missing_bridges"), std::pair(3, 6));
   EXPECT_EQ(draws_of(plan, "bridge_bending"), std::pair(1, 1));
 }
