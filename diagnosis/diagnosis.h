@@ -46,6 +46,12 @@ struct Pull {
   double impact = 0.0;  ///< root mean square of its response over the features' noise
 };
 
+/// A reading of the law that the experiment follows, though the sample states the other.
+struct FollowedReading {
+  std::string setting;              ///< as a sample states it
+  double share = 0.0, error = 0.0;  ///< of what the reading changes: 0 as stated, 1 as the setting; its sd
+};
+
 /// A gap before and after something was added to the simulation, in units of its noise (excess()).
 struct Shrinkage {
   double before = 0.0, after = 0.0, fraction = 0.0;
@@ -110,6 +116,7 @@ struct Diagnosis {
   Eigen::MatrixXd separation;        ///< isolability(), effects × (effects + 1)
   std::vector<GroupMagnitude> groups;
   std::vector<Pull> pulls;
+  std::vector<FollowedReading> law;  ///< none where the cause has no name
   Shrinkage fitted, withheld;
   double retuned = 0.0, wrong = 0.0;  ///< fractions of the withheld gap that the controls close
   std::string wrong_effect;           ///< of that control; empty: none was made

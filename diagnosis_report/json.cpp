@@ -131,6 +131,13 @@ ordered_json pulls_of(const Diagnosis& d) {
   return all;
 }
 
+ordered_json law_of(const Diagnosis& d) {
+  ordered_json all = ordered_json::array();
+  for (const auto& one : d.law)
+    all.push_back({{"setting", one.setting}, {"share", number(one.share)}, {"error", number(one.error)}});
+  return all;
+}
+
 ordered_json places_of(const Diagnosis& d) {
   ordered_json all = ordered_json::array();
   for (const auto& place : d.places) {
@@ -255,6 +262,7 @@ ordered_json to_json(const Diagnosis& d) {
   json["next_experiments"] = to_json(d.next);
   json["groups"] = groups_of(d);
   json["pulls"] = pulls_of(d);
+  json["law"] = law_of(d);
   json["places"] = places_of(d);
   json["separation"] = {{"effects", d.effects}, {"squared_distance", rows_of(d.separation)}};
   json["noise_budget"] = noise_of(d);

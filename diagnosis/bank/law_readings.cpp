@@ -1,6 +1,9 @@
 #include "diagnosis/bank/law_readings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <variant>
 
 namespace pendular::diagnosis {
 
@@ -25,6 +28,17 @@ const std::vector<LawReading>& law_readings() {
        }},
   };
   return all;
+}
+
+std::string other_setting(const LawReading& reading, const Sample& sample) {
+  Sample changed = sample;
+  reading.other(changed);
+  const auto before = sample_settings(sample), after = sample_settings(changed);
+  const auto differs = std::mismatch(before.begin(), before.end(), after.begin()).second;
+  if (differs == after.end()) return reading.name;
+  if (const bool* flag = std::get_if<bool>(&differs->second))
+    return fmt::format("{} = {}", differs->first, *flag);
+  return fmt::format("{} = \"{}\"", differs->first, std::get<std::string>(differs->second));
 }
 
 const LawReading* find_law_reading(const std::string& id) {

@@ -18,6 +18,9 @@ struct LawReading {
 /// By as much as engines differ: docs/engines.md.
 const std::vector<LawReading>& law_readings();
 
+/// The other way of a reading, as a sample states it: `contact.glass = "hertz"`.
+std::string other_setting(const LawReading& reading, const Sample& sample);
+
 /// The reading of that name; nullptr where there is none.
 const LawReading* find_law_reading(const std::string& id);
 

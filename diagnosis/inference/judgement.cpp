@@ -9,6 +9,8 @@
 
 #include "base/distributions.h"
 #include "base/quantity.h"
+#include "diagnosis/bank/law_readings.h"
+#include "diagnosis/inference/correction.h"
 #include "diagnosis/inference/reduced_space.h"
 #include "diagnosis/thresholds.h"
 #include "diagnosis/words.h"
@@ -190,6 +192,20 @@ void set_pulls(const Comparison& readings, const Changes& best, const Experiment
   }
 }
 
+/// Readings of the law that pulls show. Where no explanation has a name they take up what they can of it.
+void set_law(const Experiment& experiment, Diagnosis& diagnosis) {
+  const std::string& best = diagnosis.explanations.front().id;
+  if (best == kUnknown || best == kOtherPairs) return;
+  for (const auto& reading : law_readings())
+    for (const auto& pull : diagnosis.pulls) {
+      const double share = kThresholds.law_reading * pull.pull;
+      if (pull.key == reading.name && share > kThresholds.least_followed &&
+          share < kThresholds.most_followed && pull.pull > kThresholds.followed_by * pull.spread)
+        diagnosis.law.push_back(
+            {other_setting(reading, experiment.sample), share, kThresholds.law_reading * pull.spread});
+    }
+}
+
 void set_signatures(const Problem& problem, Diagnosis& diagnosis) {
   const Comparison& landmarks = problem.landmarks;
   const Eigen::VectorXd noise = whole_covariance(landmarks.gap).diagonal().cwiseSqrt();
@@ -253,6 +269,7 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   std::vector<std::size_t> all(experiment.observations.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   set_pulls(readings, fitted_changes(problem, effects_in(best.id), all), experiment, diagnosis);
+  set_law(experiment, diagnosis);
 }
 
 }  // namespace pendular::diagnosis

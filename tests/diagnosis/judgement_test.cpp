@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "diagnosis/bank/law_readings.h"
 #include "diagnosis/repair/shrinkage.h"
+#include "diagnosis/thresholds.h"
 #include "diagnosis/verdict.h"
 #include "signatures.h"
 
@@ -84,6 +86,32 @@ TEST(Judgement, NoGapNeedsNoExplanation) {
   EXPECT_EQ(diagnosis.explanations.front().id, "none");
   EXPECT_EQ(diagnosis.nearest_signature, "none");
   EXPECT_NE(verdict_of(diagnosis).find("effect is needed"), std::string::npos);
+}
+
+TEST(Judgement, SaysWhichReadingOfTheLawTheExperimentFollows) {
+  const Eigen::Vector3d of_hertz(0.0, 0.1, 0.4);  // what no effect does
+  const auto law_at = [&](double share, Glass stated) {
+    Problem problem = planted(share * of_hertz);
+    for (Comparison* one : {&problem.landmarks, &problem.readings}) {
+      one->gap.believed.conservativeResize(3, 2);
+      one->gap.believed.col(1) = kThresholds.law_reading * of_hertz;
+      one->inputs.push_back(find_law_reading("glass")->name);
+    }
+    Experiment experiment = one_curve();
+    experiment.sample.contact.glass = stated;
+    Diagnosis diagnosis;
+    judge(problem, {}, {}, experiment, diagnosis);
+    return std::pair(diagnosis.law, verdict_of(diagnosis));
+  };
+  const auto [followed, verdict] = law_at(1.0, Glass::linear);
+  ASSERT_EQ(followed.size(), 1u) << verdict;
+  EXPECT_EQ(followed.front().setting, "contact.glass = \"hertz\"");
+  EXPECT_NEAR(followed.front().share, 1.0, 0.1);
+  EXPECT_LT(followed.front().error, 0.1);
+  EXPECT_NE(verdict.find("contact.glass = \"hertz\""), std::string::npos) << verdict;
+  EXPECT_EQ(law_at(1.0, Glass::hertz).first.front().setting, "contact.glass = \"linear\"");
+  EXPECT_TRUE(law_at(0.0, Glass::linear).first.empty());
+  EXPECT_TRUE(law_at(-1.0, Glass::linear).first.empty()) << "the other way is no reading";
 }
 
 TEST(Judgement, WhatNoEffectCanDoIsUnknown) {
