@@ -19,7 +19,7 @@ constexpr int kDraws = 3;                      // of effects that draw, at each 
 constexpr int kFiner = 2;                      // magnitudes of effects that do not draw, over those of others
 constexpr int kMembersOfScans = 4;  // without an effect, of tests that end at a scan, over those of others
 constexpr int kDrawsOfScans = 2;    // of effects that draw, likewise
-constexpr int kOfALaw = 4;          // members that are run with the other reading of a law
+constexpr int kOfALaw = 8;          // members that are run with the other reading of a law
 constexpr double kMostBeads = 2000.0, kBankBeads = 1500.0;
 
 const SampleKey& key_of(const std::string& name) {
