@@ -19,7 +19,7 @@ constexpr int kDraws = 3;                      // of effects that draw, at each 
 constexpr int kFiner = 2;                      // magnitudes of effects that do not draw, over those of others
 constexpr int kMembersOfScans = 4;  // without an effect, of tests that end at a scan, over those of others
 constexpr int kDrawsOfScans = 2;    // of effects that draw, likewise
-constexpr int kOfALaw = 8;          // members that are run with the other reading of a law
+constexpr int kOfALaw = 8;          // members that are run with the other reading of a law, at most
 constexpr double kMostBeads = 2000.0, kBankBeads = 1500.0;
 
 const SampleKey& key_of(const std::string& name) {
@@ -110,7 +110,7 @@ class Planner {
       }
     }
     for (const auto& reading : law_readings())
-      for (int member = 1; member <= kOfALaw; ++member)
+      for (int member = 1; member <= std::min(kOfALaw, members_); ++member)
         add({member, reading.id, 1.0, !scaled_, draw_seed(member, 0), false, {{reading.id, 1.0}}});
     return std::move(plan_);
   }
