@@ -53,6 +53,17 @@ std::string cause(const Diagnosis& diagnosis) {
       joined(rest, kListed));
 }
 
+/// Beside the cause: what of the law the sample states otherwise.
+std::string which_law(const Diagnosis& diagnosis) {
+  if (diagnosis.law.empty()) return "";
+  std::vector<std::string> settings;
+  for (const auto& one : diagnosis.law)
+    settings.push_back(
+        fmt::format("{} (to {:.2f} ± {:.2f} of what it changes)", one.setting, one.share, one.error));
+  return fmt::format(" The experiment follows another reading of the law than the sample states: {}.",
+                     joined(settings, kListed));
+}
+
 /// One sentence: what, why, and what is expected of it.
 std::string what_next(const Diagnosis& diagnosis) {
   const auto& next = diagnosis.next;
@@ -105,17 +116,6 @@ std::string where(const Diagnosis& diagnosis) {
   return text;
 }
 
-/// Beside the cause: what of the law the sample states otherwise.
-std::string which_law(const Diagnosis& diagnosis) {
-  if (diagnosis.law.empty()) return "";
-  std::vector<std::string> settings;
-  for (const auto& one : diagnosis.law)
-    settings.push_back(
-        fmt::format("{} (to {:.2f} ± {:.2f} of what it changes)", one.setting, one.share, one.error));
-  return fmt::format(" The experiment follows another reading of the law than the sample states: {}.",
-                     joined(settings, kListed));
-}
-
 std::string how_far(const Diagnosis& diagnosis) {
   const Shrinkage &fitted = diagnosis.fitted, &withheld = diagnosis.withheld;
   if (diagnosis.explanations.front().magnitudes.empty() || fitted.observations.empty()) return "";
@@ -158,8 +158,8 @@ std::string trust(const Diagnosis& diagnosis) {
 }  // namespace
 
 std::string verdict_of(const Diagnosis& diagnosis) {
-  std::string text = cause(diagnosis) + what_next(diagnosis) + "\n" + where(diagnosis) +
-                     which_law(diagnosis) + how_far(diagnosis);
+  std::string text = cause(diagnosis) + which_law(diagnosis) + what_next(diagnosis) + "\n" +
+                     where(diagnosis) + how_far(diagnosis);
   if (const std::string last = trust(diagnosis); !last.empty()) text += "\n" + last;
   return text;
 }
