@@ -12,7 +12,7 @@ namespace pendular::dem_core {
 namespace {
 
 constexpr char kNewest[] = "checkpoint", kPrevious[] = "checkpoint.previous", kNext[] = "checkpoint.next";
-constexpr char kMagic[] = "pendular checkpoint 7\n";
+constexpr char kMagic[] = "pendular checkpoint 8\n";
 
 struct Writer {
   std::string bytes;

@@ -51,6 +51,18 @@ TEST(Request, HashTellsEveryDifference) {
     EXPECT_TRUE(hashes.insert(content_hash(other)).second) << request_text(other);
 }
 
+TEST(Request, KeysYoungerThanStoresShowOnlyWhereTheyAreUsed) {
+  const std::string text = request_text(plain());
+  EXPECT_EQ(text.find("contact.glass"), std::string::npos);
+  EXPECT_EQ(text.find("bridges.breaking"), std::string::npos);
+  RunRequest other = plain();
+  other.sample.contact.glass = Glass::hertz;
+  other.sample.bridges.breaking = Breaking::limits;
+  const RunRequest again = parse_request(request_text(other), "test");
+  EXPECT_EQ(again.sample.contact.glass, Glass::hertz);
+  EXPECT_EQ(again.sample.bridges.breaking, Breaking::limits);
+}
+
 TEST(Request, APackingFileCountsByItsContentNotItsName) {
   ScratchFolder folder;
   Packing packing;
