@@ -9,24 +9,57 @@
 #include "base/parallel.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/thresholds.h"
+#include "packing/bridges.h"
 #include "packing/tables.h"
 
 namespace pendular::diagnosis {
 namespace {
 
 constexpr unsigned long kSeedOfRuns = 1000;  // of their noise
+constexpr int kHeldBy = 3;  // bonds: on two, a bead turns about the line through them without resistance
+
+/// Beads that at least three pairs hold, of which the same is true: how the others move, damping decides.
+std::map<std::int64_t, Bead> held_beads(const std::vector<Bead>& beads, double cutoff) {
+  const auto pairs = candidate_bridges(beads, cutoff);
+  std::vector<char> held(beads.size(), true);
+  for (bool changed = true; changed;) {
+    std::vector<int> count(beads.size(), 0);
+    for (const auto& pair : pairs) {
+      const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+      if (held[i] && held[j]) ++count[i], ++count[j];
+    }
+    changed = false;
+    for (std::size_t k = 0; k < beads.size(); ++k)
+      if (held[k] && count[k] < kHeldBy) held[k] = false, changed = true;
+  }
+  std::map<std::int64_t, Bead> found;
+  for (std::size_t k = 0; k < beads.size(); ++k)
+    if (held[k]) found[beads[k].id] = beads[k];
+  return found;
+}
+
+/// The rows of beads that are held.
+Columns rows_of(const std::map<std::int64_t, Bead>& held, const Columns& columns) {
+  Columns kept;
+  for (std::size_t k = 0; k < columns.at("bead_id").size(); ++k)
+    if (held.contains(static_cast<std::int64_t>(columns.at("bead_id")[k])))
+      for (const auto& [name, values] : columns) kept[name].push_back(values[k]);
+  return kept;
+}
+
+double cutoff_of(const Sample& sample) {
+  return sample.bridges.cutoff * sample.beads.diameter;
+}
 
 /// The beads of an observation's scans, one after the other, in the order of its field.
-std::vector<FollowedBeads> followed_in(const Experiment& experiment, const Observation& observation) {
-  const Sample sample = experiment.sample_of(observation);
-  std::map<std::int64_t, Bead> by_id;
-  for (const auto& bead : read_beads(observation.beads)) by_id[bead.id] = bead;
+std::vector<FollowedBeads> followed_in(const Sample& sample, const std::map<std::int64_t, Bead>& by_id,
+                                       const Observation& observation) {
   const auto& strains = observation.column("strain");
   std::vector<FollowedBeads> scans;
   for (const double strain : std::set<double>(strains.begin(), strains.end())) {
     FollowedBeads followed;
     followed.strain = strain;
-    followed.cutoff = sample.bridges.cutoff * sample.beads.diameter;
+    followed.cutoff = cutoff_of(sample);
     double stated = 0.0;
     for (std::size_t k = 0; k < strains.size(); ++k) {
       if (strains[k] != strain) continue;
@@ -64,19 +97,23 @@ Eigen::VectorXd joined(const std::vector<Eigen::VectorXd>& parts) {
 
 std::optional<FieldBank> field_bank(const Experiment& experiment, const BankPlan& plan, std::size_t index,
                                     const std::vector<SimulatedTests>& tests) {
-  const Observation& observation = experiment.observations[index];
+  Observation observation = experiment.observations[index];
   const auto& field = observation.kind->field;
   if (!field || observation.beads.empty()) return std::nullopt;
   constexpr double um = 1e6;
+  const Sample sample = experiment.sample_of(observation);
+  const auto held = held_beads(read_beads(observation.beads), cutoff_of(sample));
+  observation.columns = rows_of(held, observation.columns);
+  if (observation.columns.empty()) return std::nullopt;
   FieldBank bank{observation.name,
-                 followed_in(experiment, observation),
+                 followed_in(sample, held, observation),
                  um * field(observation, observation.columns),
                  {}};
   bank.of_runs.resize(plan.points.size());
   for_blocks(plan.points.size(), 1, [&](std::size_t k, std::size_t) {
     if (const auto columns =
             simulated_columns(experiment, plan.conditions, index, tests[k], plan.points[k].changes))
-      bank.of_runs[k] = um * field(observation, *columns);
+      bank.of_runs[k] = um * field(observation, rows_of(held, *columns));
   });
   bool baseline = false;
   for (std::size_t k = 0; k < plan.points.size(); ++k)
