@@ -8,6 +8,7 @@
 
 #include "diagnosis/experiment/experiment.h"
 #include "followed.h"
+#include "packing/bridges.h"
 #include "packing/tables.h"
 #include "sample_file.h"
 #include "scratch.h"
@@ -142,6 +143,32 @@ TEST_F(FieldReadingsTest, RunsThatFailedShowNothing) {
   EXPECT_TRUE(readings.of_runs[7].array().isNaN().all());
   EXPECT_TRUE(readings.of_runs[6].allFinite());
   EXPECT_GT(readings.model.diagonal().minCoeff(), 0.0);
+}
+
+TEST_F(FieldReadingsTest, ABeadOnTwoBondsIsNotRead) {
+  const auto rows = bent(0.8);
+  const Readings without = read(rows);
+  auto beads = followed_specimen();
+  Bead loose = beads[0];  // below the first two, which touch, and no other
+  loose.id = 257;
+  loose.centre = 0.5 * (beads[0].centre + beads[1].centre) - Vec3(0.0, 0.0, 0.87 * loose.diameter);
+  beads.push_back(loose);
+  ASSERT_EQ(candidate_bridges(beads, 12.8e-6).size(),
+            candidate_bridges(followed_specimen(), 12.8e-6).size() + 2);
+  write_beads(folder / "beads.csv", beads, {});
+  for (auto& test : tests) {
+    auto longer = std::make_shared<SimulatedTest>(*test[0]);
+    longer->frames[0].ids.push_back(loose.id);
+    longer->frames[0].rest.push_back(loose.centre);
+    longer->frames[0].displacement.push_back(Vec3::Zero());
+    test[0] = std::move(longer);
+  }
+  auto more = rows;
+  more.push_back({loose.id, loose.centre, Vec3(1e-5, 0.0, 2e-5)});
+  const Readings with = read(more);
+  ASSERT_EQ(with.observed.size(), without.observed.size());
+  for (std::size_t k = 0; k < with.observed.size(); ++k)
+    EXPECT_EQ(with.observed[k].value, without.observed[k].value) << with.observed[k].name;
 }
 
 TEST_F(FieldReadingsTest, BeadsThatTheScanLostAreNoLoss) {
