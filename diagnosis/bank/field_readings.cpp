@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "base/parallel.h"
 #include "diagnosis/kinds/kind.h"
@@ -105,10 +106,10 @@ std::optional<FieldBank> field_bank(const Experiment& experiment, const BankPlan
   const auto held = held_beads(read_beads(observation.beads), cutoff_of(sample));
   observation.columns = rows_of(held, observation.columns);
   if (observation.columns.empty()) return std::nullopt;
-  FieldBank bank{observation.name,
-                 followed_in(sample, held, observation),
-                 um * field(observation, observation.columns),
-                 {}};
+  auto scans = followed_in(sample, held, observation);
+  for (const auto& scan : scans)
+    if (scan.beads.size() < observation.kind->least_rows) return std::nullopt;
+  FieldBank bank{observation.name, std::move(scans), um * field(observation, observation.columns), {}};
   bank.of_runs.resize(plan.points.size());
   for_blocks(plan.points.size(), 1, [&](std::size_t k, std::size_t) {
     if (const auto columns =

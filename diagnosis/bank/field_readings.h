@@ -8,7 +8,8 @@
 
 namespace pendular::diagnosis {
 
-/// The fields of one observation: as measured, and of every run of a bank. µm, scan after scan.
+/// The fields of one observation, of beads that at least three bonds to such beads hold: as measured, and of
+/// every run of a bank. µm, scan after scan.
 struct FieldBank {
   std::string observation;
   std::vector<FollowedBeads> scans;
@@ -16,7 +17,8 @@ struct FieldBank {
   std::vector<std::optional<Eigen::VectorXd>> of_runs;  ///< per point of the plan; empty: it has none
 };
 
-/// Nothing where the beads of the specimen were not measured, or no baseline has a field.
+/// Nothing where the beads of the specimen were not measured, fewer of them are held than a scan needs, or no
+/// baseline has a field.
 std::optional<FieldBank> field_bank(const Experiment& experiment, const BankPlan& plan,
                                     std::size_t observation, const std::vector<SimulatedTests>& tests);
 
