@@ -61,6 +61,8 @@ ordered_json json_of(const Kept& kept) {
             {"theta_held", json_of(kept.promised_theta)},
             {"false_alarms", json_of(kept.promised_alarms)}}},
           {"set_hit", json_of(kept.in_set)},
+          {"at_its_magnitude",
+           {{"promised", json_of(kept.promised_there)}, {"set_hit", json_of(kept.in_set_there)}}},
           {"mean_set_size", json_of(kept.set_size)},
           {"false_alarms_of_unknown", json_of(kept.unknown_alarms)},
           {"upper_limits_held", json_of(kept.limits)},

@@ -148,7 +148,7 @@ Proportion limits_held(const std::vector<Verdict>& verdicts) {
 
 Kept kept(const std::vector<Verdict>& verdicts) {
   Kept kept;
-  std::vector<double> in_set, size, theta, alarms, sizes;
+  std::vector<double> in_set, size, theta, alarms, sizes, there;
   for (const auto& verdict : verdicts) {
     kept.confidently_wrong.count(verdict.confidently_wrong());
     if (!verdict.said) continue;
@@ -158,10 +158,15 @@ Kept kept(const std::vector<Verdict>& verdicts) {
     in_set.push_back(promised->in_set), size.push_back(promised->set_size);
     theta.push_back(promised->theta_held), alarms.push_back(promised->false_alarms);
     kept.in_set.count(verdict.in_set(verdict.answer));
+    if (const auto at = verdict.promised_in_set()) {
+      there.push_back(*at);
+      kept.in_set_there.count(verdict.in_set(verdict.answer));
+    }
     sizes.push_back(static_cast<double>(verdict.said->set.size()));
   }
   kept.promises = in_set.size(), kept.set_size = mean(sizes);
   kept.promised_in_set = mean(in_set), kept.promised_size = mean(size);
+  kept.promised_there = mean(there);
   kept.promised_theta = mean(theta), kept.promised_alarms = mean(alarms);
   kept.magnitude = magnitudes(verdicts);
   kept.reliability = reliability(verdicts);

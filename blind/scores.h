@@ -53,6 +53,9 @@ struct Kept {
   /// Cases that the replay stands for: nothing or one effect withheld, and a promise. Means of what it said.
   std::size_t promises = 0;
   double promised_in_set = 0.0, promised_size = 0.0, promised_theta = 0.0, promised_alarms = 0.0;
+  /// Of those whose magnitude was replayed (Verdict::promised_in_set): mean, and what came.
+  double promised_there = 0.0;
+  Proportion in_set_there;
   Proportion in_set;          ///< of the same cases
   double set_size = 0.0;      ///< likewise
   Proportion unknown_alarms;  ///< right answer not `unknown`, and it is in the set

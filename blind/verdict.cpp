@@ -14,6 +14,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr double kNearly = 0.35;      // of the logarithm of a magnitude, over which runs stand for it
+constexpr double kLeastWeight = 0.1;  // of such runs together, below which none does
 constexpr const char* kMark = "without_truth.txt";
 
 json parsed(const fs::path& path) {
@@ -65,10 +67,16 @@ void read_promise(Diagnosed& said, const json& promise) {
   const auto in_set = number_in(promise, "in_set"), size = number_in(promise, "set_size"),
              theta = number_in(promise, "theta_held"), alarms = number_in(promise, "false_alarms");
   if (in_set && size && theta && alarms) said.promised = {*in_set, *size, *theta, *alarms};
+  if (const json none = promise.value("none", json::object()); none.value("cases", 0) > 0)
+    said.promised_of_none = none.at("in_set").get<double>() / none.at("cases").get<double>();
   const json effects = promise.value("effects", json::object());  // items() does not keep it alive
-  for (const auto& [id, runs] : effects.items())
-    if (2 * runs.at("told_from_none").get<std::size_t>() < runs.at("cases").get<std::size_t>())
+  for (const auto& [id, replayed] : effects.items()) {
+    if (2 * replayed.at("told_from_none").get<std::size_t>() < replayed.at("cases").get<std::size_t>())
       said.untold.insert(id);
+    const json runs = replayed.value("runs", json::array());
+    for (const auto& run : runs)
+      said.replayed[id].emplace_back(run.at("magnitude").get<double>(), run.at("in_set").get<bool>());
+  }
 }
 
 /// The last column is the distance from none.
@@ -103,6 +111,23 @@ std::string in_order(const std::string& id) {
   if (plus == std::string::npos) return id;
   const std::string first = id.substr(0, plus), second = id.substr(plus + 1);
   return first < second ? id : second + "+" + first;
+}
+
+std::optional<double> Verdict::promised_in_set() const {
+  if (!said || truth.effects.size() > 1) return std::nullopt;
+  if (truth.effects.empty()) return said->promised_of_none;
+  const auto& [id, theta] = *truth.effects.begin();
+  const auto found = said->replayed.find(id);
+  if (found == said->replayed.end()) return std::nullopt;
+  double weights = 0.0, right = 0.0;
+  for (const auto& [magnitude, in_set] : found->second) {
+    if (magnitude * theta <= 0.0) continue;
+    const double apart = std::log(magnitude / theta) / kNearly;
+    const double weight = std::exp(-0.5 * apart * apart);
+    weights += weight, right += in_set ? weight : 0.0;
+  }
+  if (weights < kLeastWeight) return std::nullopt;
+  return right / weights;
 }
 
 std::string Verdict::top() const {

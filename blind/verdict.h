@@ -46,6 +46,9 @@ struct Diagnosed {
   std::optional<double> closable;  ///< fraction that the true effects close (measure_oracles())
   std::optional<std::string> nearest_signature;
   std::optional<Promised> promised;
+  std::optional<double> promised_of_none;  ///< share of replayed runs without an effect whose set is right
+  /// Of each effect, its replayed runs: magnitude, and whether the set is right.
+  std::map<std::string, std::vector<std::pair<double, bool>>> replayed;
   std::map<std::string, double> limits;  ///< upper limits of |θ| of effects that are hardly shown
   std::set<std::string> untold;  ///< effects that the replay tells from none in less than half of their runs
   /// Squared distance of each effect at its usual magnitude from the nearest that another can do, and from
@@ -64,6 +67,9 @@ struct Verdict {
   std::string top() const;  ///< the most probable explanation; empty where nothing was said
   double probability(const std::string& id) const;
   bool in_set(const std::string& id) const;
+  /// How often, by the replay, a set is right where the truth is what it is: nothing, or one effect of nearly
+  /// its magnitude and of its sign. Nothing where no such run was replayed.
+  std::optional<double> promised_in_set() const;
   bool exact() const { return said && top() == answer; }
   bool confidently_wrong() const { return said && !exact() && probability(top()) > 0.9; }
 };

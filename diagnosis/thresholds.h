@@ -65,6 +65,7 @@ struct DiagnosisThresholds {
   double of_theta = 0.9;        ///< runs whose interval holds their magnitude [definition]
   double of_limits = 0.95;      ///< runs whose upper limit holds [definition]
   double strong = 10.0;         ///< ratio of evidences that is strong (Jeffreys) [definition]
+  double seen = 0.9;            ///< runs told from none, from where an effect is seen on [definition]
   double by_slip = 0.05;        ///< level of the test that an effect is told from none [definition]
   double worth_of_all = 10.0;   ///< runs that what all effects need is worth beside an effect's own [replay]
   double like_pairs = 2.0 / 3;  ///< P(unknown like two effects) over what pairs have beyond one [development]

@@ -145,7 +145,7 @@ std::string trust(const Diagnosis& diagnosis) {
                         p.outside.cases, p.outside.flagged);
   std::vector<std::string> hidden;
   for (const auto& one : diagnosis.unseen)
-    hidden.push_back(fmt::format("{} up to {}", plain_name(one.effect), limit_in_words(one)));
+    hidden.push_back(fmt::format("{} up to {}", plain_name(one.effect), limit_in_words(one.limit, one.unit)));
   if (!hidden.empty())
     text += fmt::format(" These observations would hardly show {}.", joined(hidden, kListed));
   for (const auto& place : diagnosis.places) text += " " + place.words;

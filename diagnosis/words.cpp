@@ -89,8 +89,8 @@ std::string unit_of_key(const std::string& key) {
   return key.ends_with("_pa") ? "Pa" : key.ends_with("_um") ? "um" : "1";
 }
 
-std::string limit_in_words(const Unseen& unseen) {
-  return quantity_within(unseen.limit, 0.1 * unseen.limit, unseen.unit);
+std::string limit_in_words(double limit, const std::string& unit) {
+  return quantity_within(limit, 0.1 * limit, unit);
 }
 
 std::string in_words(const Shrinkage& shrinkage) {

@@ -29,8 +29,8 @@ std::string unit_of(const Feature& feature);
 /// The unit that a key of the sample ends with: Pa, um or 1.
 std::string unit_of_key(const std::string& key);
 
-/// The limit of an effect that is hardly shown, to about a tenth of itself.
-std::string limit_in_words(const Unseen& unseen);
+/// A magnitude that is a limit, to about a tenth of itself.
+std::string limit_in_words(double limit, const std::string& unit);
 
 /// The part of a gap that is closed, "74 % (61 to 83 %)", or that there is nothing to close.
 std::string in_words(const Shrinkage& shrinkage);

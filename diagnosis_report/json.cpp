@@ -161,11 +161,15 @@ ordered_json promise_of(const Diagnosis& d) {
   for (const auto& bin : p.reliability)
     reliability.push_back(
         {{"said", number(bin.said)}, {"came_true", number(bin.came_true)}, {"cases", bin.cases}});
-  for (const auto& [id, effect] : p.effects)
-    effects[id] = {{"cases", effect.cases},
-                   {"told_from_none", effect.told_from_none},
-                   {"first", effect.first},
-                   {"in_set", effect.in_set}};
+  for (const auto& [id, effect] : p.effects) {
+    ordered_json runs = ordered_json::array();
+    for (const auto& run : effect.runs)
+      runs.push_back(
+          {{"magnitude", number(run.theta)}, {"told_from_none", run.told_from_none}, {"in_set", run.in_set}});
+    effects[id] = {
+        {"cases", effect.cases},   {"told_from_none", effect.told_from_none}, {"first", effect.first},
+        {"in_set", effect.in_set}, {"seen_from", number(effect.seen_from())}, {"runs", runs}};
+  }
   return {{"cases", p.cases},
           {"confidence", number(p.confidence)},
           {"in_set", replayed(p.in_set)},
@@ -177,6 +181,7 @@ ordered_json promise_of(const Diagnosis& d) {
            {{"cases", p.outside.cases}, {"flagged", p.outside.flagged}, {"misnamed", p.outside.misnamed}}},
           {"temperature", number(p.correction.temperature)},
           {"reliability", reliability},
+          {"none", {{"cases", p.none.cases}, {"in_set", p.none.in_set}}},
           {"effects", effects}};
 }
 

@@ -108,15 +108,17 @@ viz::ReportSection promise_section(const Diagnosis& d) {
         p.outside.cases, p.outside.flagged, p.outside.misnamed);
   std::vector<std::string> hidden;
   for (const auto& one : d.unseen)
-    hidden.push_back(
-        fmt::format("{} up to {}", diagnosis::name_and_id(one.effect), diagnosis::limit_in_words(one)));
+    hidden.push_back(fmt::format("{} up to {}", diagnosis::name_and_id(one.effect),
+                                 diagnosis::limit_in_words(one.limit, one.unit)));
   if (!hidden.empty())
     text += fmt::format(
         "\nHardly shown by these observations, with the largest magnitude that could hide (95 %): {}.",
         fmt::join(hidden, "; "));
   auto out = section("What this can promise", text, {});
   out.tables = {to_report(shown_promise_table(d),
-                          "Replayed runs of each effect: shares told from none, and named first."),
+                          "Replayed runs of each effect: shares told from none, named first, and answered by "
+                          "a set that holds it; and the magnitude from which on nine in ten are told from "
+                          "none (empty: at none of the bank). Smaller ones may pass for nothing."),
                 to_report(reliability_table(d),
                           "How often the most probable explanation of a replayed run was right.")};
   return out;

@@ -9,6 +9,7 @@
 #include "base/quantity.h"
 #include "diagnosis/words.h"
 #include "diagnosis_report/explanations.h"
+#include "effects/list.h"
 
 namespace pendular::diagnosis_report {
 namespace {
@@ -156,20 +157,30 @@ Table excluded_table(const Diagnosis& d) {
 }
 
 Table promise_table(const Diagnosis& d) {
-  Table table{"promises", {"effect", "name", "replayed_runs", "told_from_none", "named_first", "in_set"}, {}};
+  Table table{
+      "promises",
+      {"effect", "name", "replayed_runs", "told_from_none", "named_first", "in_set", "seen_from", "unit"},
+      {}};
   for (const auto& [id, effect] : d.promise.effects) {
     const double runs = static_cast<double>(effect.cases);
-    table.rows.push_back(
-        {id, diagnosis::plain_name(id), runs, static_cast<double>(effect.told_from_none) / runs,
-         static_cast<double>(effect.first) / runs, static_cast<double>(effect.in_set) / runs});
+    const std::string unit = effect.runs.empty() ? "" : effects::find_effect(id, "diagnosis").unit;
+    table.rows.push_back({id, diagnosis::plain_name(id), runs,
+                          static_cast<double>(effect.told_from_none) / runs,
+                          static_cast<double>(effect.first) / runs, static_cast<double>(effect.in_set) / runs,
+                          effect.seen_from(), unit});
   }
   return table;
 }
 
 Table shown_promise_table(const Diagnosis& d) {
   Table table = promise_table(d);
-  for (auto& row : table.rows)
-    for (const std::size_t column : {3, 4}) row[column] = percent(std::get<double>(row[column]));
+  table.columns.pop_back();
+  for (auto& row : table.rows) {
+    for (const std::size_t column : {3, 4, 5}) row[column] = percent(std::get<double>(row[column]));
+    const double from = std::get<double>(row[6]);
+    row[6] = std::isfinite(from) ? diagnosis::limit_in_words(from, std::get<std::string>(row[7])) : "";
+    row.pop_back();
+  }
   return table;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <set>
 
@@ -224,12 +225,14 @@ void count(const Replayed& one, const Correction& correction, Promise& promise,
   const auto bin =
       static_cast<std::size_t>(std::upper_bound(kBins + 1, std::end(kBins) - 1, top) - kBins - 1);
   bins[bin].said += top, bins[bin].came_true += said.front().id == truth, ++bins[bin].cases;
-  if (one.truth.empty()) return;
-  EffectReplay& effect = promise.effects[truth];
+  EffectReplay& effect = one.truth.empty() ? promise.none : promise.effects[truth];
   ++effect.cases;
   effect.told_from_none += !holds(set, kNone);
   effect.first += said.front().id == truth;
   effect.in_set += right(set, truth, correction);
+  if (one.truth.size() == 1)
+    effect.runs.push_back({one.truth.begin()->second, !holds(set, kNone), holds(set, truth)});
+  if (one.truth.empty()) return;
   const Hypothesis* named = said_of(said, truth);
   if (!named || one.truth.size() > 1) return;
   const auto& [low, high] = named->magnitudes.front().interval_90;
@@ -252,6 +255,21 @@ std::string truth_of(const Replayed& one) {
   std::string joined;
   for (const auto& [id, theta] : one.truth) joined += (joined.empty() ? "" : "+") + id;
   return joined;
+}
+
+double EffectReplay::seen_from() const {
+  std::vector<ReplayedMagnitude> down = runs;
+  std::stable_sort(down.begin(), down.end(),
+                   [](const auto& a, const auto& b) { return std::fabs(a.theta) > std::fabs(b.theta); });
+  double told = 0.0, from = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < down.size(); ++k) {
+    told += down[k].told_from_none;
+    const bool last_of_level =
+        k + 1 == down.size() || std::fabs(down[k + 1].theta) < std::fabs(down[k].theta);
+    if (last_of_level && told >= kThresholds.seen * static_cast<double>(k + 1))
+      from = std::fabs(down[k].theta);
+  }
+  return from;
 }
 
 Promise promise_of(const std::vector<Replayed>& replayed, double confidence) {

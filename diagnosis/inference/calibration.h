@@ -15,10 +15,20 @@ struct Reliability {
   std::size_t cases = 0;
 };
 
-/// What the replay says of an effect, or of a pair that was run: how many of its runs were told from none,
-/// named first, and answered by a right set.
+/// A replayed run of one effect: its magnitude, whether its set was without none, and held the effect.
+struct ReplayedMagnitude {
+  double theta = 0.0;
+  bool told_from_none = false, in_set = false;
+};
+
+/// What the replay says of an explanation: how many of its runs were told from none, named first, and
+/// answered by a right set.
 struct EffectReplay {
   std::size_t cases = 0, told_from_none = 0, first = 0, in_set = 0;
+  std::vector<ReplayedMagnitude> runs = {};  ///< of a single effect
+
+  /// The least |θ| of its runs from which on nine in ten are told from none; infinite where it has none.
+  double seen_from() const;
 };
 
 /// What a replay says of mechanisms that the library lacks (LeftOut::effects).
@@ -39,7 +49,8 @@ struct Promise {
   double limits_held = 0.0;   ///< share of upper limits (upper_limit()) that |θ| is not above
   double false_alarms = 0.0;  ///< share of runs with no effect or one whose set holds `unknown`
   std::vector<Reliability> reliability;
-  std::map<std::string, EffectReplay> effects;
+  EffectReplay none;
+  std::map<std::string, EffectReplay> effects;  ///< and pairs that were run
   OutsideReplay outside;
   Correction correction;
 };

@@ -212,6 +212,32 @@ TEST_F(Score, PairsAreAlikeWhereWhatStandsForWhatIsNear) {
   EXPECT_EQ(distance_from_truth(pair, pair.answer), 0.0);
 }
 
+TEST_F(Score, PromisesAtAMagnitudeAreOfReplayedRunsNearIt) {
+  // A run at such a magnitude counts half as much as one at θ itself.
+  const double half = 0.1 * std::exp(0.35 * std::sqrt(2.0 * std::log(2.0)));
+  const auto run = [](double magnitude, bool in_set) {
+    return json{{"magnitude", magnitude}, {"told_from_none", in_set}, {"in_set", in_set}};
+  };
+  json promise = {{"in_set", 0.95}, {"set_size", 2.0}, {"theta_held", 0.9}, {"false_alarms", 0.05}};
+  promise["none"] = {{"cases", 10}, {"in_set", 9}};
+  promise["effects"]["missing_bridges"] = {
+      {"cases", 3}, {"told_from_none", 1}, {"runs", {run(0.1, true), run(half, false), run(-0.1, false)}}};
+  promise["effects"]["bead_friction"] = {
+      {"cases", 1}, {"told_from_none", 1}, {"runs", {run(2.0, true)}}};  // ten times as much as is there
+  for (const char* name : {"c1", "c2", "c4"}) add_to_report(reports / name, {{"promise", promise}});
+  const auto all = verdicts(open_seals(folder / "split"), reports);
+  EXPECT_NEAR(all[0].promised_in_set().value(), 2.0 / 3.0, 1e-9);
+  EXPECT_FALSE(all[1].promised_in_set());
+  EXPECT_FALSE(all[2].promised_in_set());  // its report has no promise
+  EXPECT_DOUBLE_EQ(all[3].promised_in_set().value(), 0.9);
+  EXPECT_FALSE(all[6].promised_in_set());  // a pair without a report
+  const Scores s = score(all, false);
+  EXPECT_NEAR(s.kept.promised_there, 0.5 * (2.0 / 3.0 + 0.9), 1e-9);
+  EXPECT_EQ(s.kept.in_set_there.of, 2u);
+  EXPECT_EQ(s.kept.in_set_there.hits, 1u);  // c1's
+  EXPECT_EQ(s.kept_by_stratum.at(Stratum::none).in_set_there.hits, 0u);
+}
+
 TEST_F(Score, SetsWhatCameBesideWhatWasPromised) {
   const auto promise = [](double in_set, double size) {
     return json{

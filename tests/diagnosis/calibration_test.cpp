@@ -314,6 +314,32 @@ TEST(Calibration, EffectsThatLookLikeNoneAreListed) {
   EXPECT_EQ(set({{"c", 0.5}, {"a", 0.45}, {"none", 0.05}}), (Ids{"c", "a"}));  // it shows for once
 }
 
+TEST(Calibration, AnEffectIsSeenFromWhereItsRunsAreToldFromNone) {
+  EffectReplay effect;
+  EXPECT_EQ(effect.seen_from(), INFINITY);
+  effect.runs = {{0.1, false, true}, {-0.2, true, true}, {0.2, false, false}, {0.3, true, true}};
+  EXPECT_DOUBLE_EQ(effect.seen_from(), 0.3);  // at 0.2 one of two is told, of three from there two
+  effect.runs[2].told_from_none = true;
+  EXPECT_DOUBLE_EQ(effect.seen_from(), 0.2);
+  effect.runs.push_back({0.4, false, true});
+  EXPECT_EQ(effect.seen_from(), INFINITY);
+}
+
+TEST(Calibration, KeepsTheMagnitudesOfReplayedRuns) {
+  auto all = runs(1.0, 1.0, 8);
+  const Promise promise = promise_of(all, 0.9);
+  std::size_t cases = promise.none.cases;
+  for (const auto& [id, effect] : promise.effects) {
+    cases += effect.cases;
+    ASSERT_EQ(effect.runs.size(), effect.cases);
+    std::size_t told = 0;
+    for (const auto& run : effect.runs) told += run.told_from_none;
+    EXPECT_EQ(told, effect.told_from_none) << id;
+  }
+  EXPECT_EQ(cases, promise.cases);
+  EXPECT_GT(static_cast<double>(promise.none.in_set), 0.8 * static_cast<double>(promise.none.cases));
+}
+
 TEST(Calibration, UpperLimitsHoldAsOftenAsTheySay) {
   for (const double error : {1.0, 2.5}) {
     const Promise promise = promise_of(runs(1.0, error, 7), 0.95);
