@@ -1,6 +1,9 @@
 #include "micromechanics/stiffness.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <mutex>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -8,6 +11,24 @@
 #include "micromechanics/stiffness_table.h"
 
 namespace pendular::micromechanics {
+namespace {
+
+constexpr std::size_t kMostKept = 256;  // bridges
+
+/// Parts of a run, and the runs of a bank in one process, ask for the stiffness of the same few bridges.
+BridgeStiffness kept_stiffness(const BridgeBody& body, const Polymer& polymer) {
+  static std::mutex guard;
+  static std::map<std::array<double, 6>, BridgeStiffness> kept;
+  const std::lock_guard lock(guard);
+  const std::array key = {body.neck_diameter,     body.gap,
+                          body.diameter_i,        body.diameter_j,
+                          polymer.youngs_modulus, polymer.poisson_ratio};
+  if (const auto known = kept.find(key); known != kept.end()) return known->second;
+  if (kept.size() == kMostKept) kept.clear();
+  return kept[key] = bridge_stiffness(body, polymer);
+}
+
+}  // namespace
 
 Polymer polymer_of(const Sample& sample) {
   return {sample.bridges.youngs_modulus, sample.bridges.poisson_ratio};
@@ -25,7 +46,7 @@ BondStiffness bond_stiffness(const Sample& sample) {
         "tangential_stiffness_n_per_m, or "
         "neither",
         normal ? "normal_stiffness_n_per_m" : "tangential_stiffness_n_per_m");
-  BondStiffness bond = bridge_stiffness(mean_bridge(sample), polymer_of(sample));
+  BondStiffness bond = kept_stiffness(mean_bridge(sample), polymer_of(sample));
   if (normal) {
     bond.normal = *normal;
     bond.tangential = *tangential;

@@ -14,12 +14,7 @@ namespace {
 using Eigen::Index;
 
 constexpr double kWantedError = 5e-4;
-/// Points along ln d/D and ln δ0/D, tried in turn.
-struct Points {
-  int neck, gap;
-};
-constexpr std::array kPoints = {Points{7, 12}, Points{10, 16}};
-constexpr Points kPointsOfChange = {4, 4};
+constexpr double kSame = 1e-9, kClose = 1e-3;  // of logarithms: rounding, and too close for points
 
 /// Chebyshev points of the first kind of a range.
 Eigen::VectorXd chebyshev_points(int size, double low, double high) {
@@ -47,6 +42,11 @@ double ln_gap_of(const BridgeBody& body) {
 
 }  // namespace
 
+/// Points along ln d/D and ln δ0/D.
+struct StiffnessTable::Points {
+  int neck, gap;
+};
+
 bool gap_is_raised(const BridgeBody& body) {
   return body.gap < kSmallestGapRatio * common_diameter(body);
 }
@@ -60,7 +60,8 @@ StiffnessTable::Four StiffnessTable::Layer::at(double ln_neck, double ln_gap) co
 }
 
 template <typename Function>
-StiffnessTable::Layer StiffnessTable::fill(int necks, int gaps, const Function& function) {
+StiffnessTable::Layer StiffnessTable::fill(const Points& points, const Function& function) {
+  const int necks = neck_.points(points.neck), gaps = gap_.points(points.gap);
   Layer layer{
       chebyshev_points(necks, neck_.low, neck_.high), chebyshev_points(gaps, gap_.low, gap_.high), {}};
   for (auto& matrix : layer.values) matrix.resize(necks, gaps);
@@ -90,9 +91,11 @@ void StiffnessTable::find_range(std::span<const BridgeBody> bodies) {
     gap_ = {std::min(gap_.low, gap), std::max(gap_.high, gap)};
     asymmetry_ = std::max(asymmetry_, asymmetry_of(body));
   }
-  // Equal bridges still need points apart from each other.
   for (Range* range : {&neck_, &gap_})
-    if (range->high - range->low < 1e-3) *range = {range->low - 5e-4, range->high + 5e-4};
+    if (const double width = range->high - range->low; width < kSame)
+      range->low = range->high = 0.5 * (range->low + range->high);
+    else if (width < kClose)
+      *range = {range->low - 0.5 * kClose, range->high + 0.5 * kClose};
   // The smaller bead of the reference has to be wider than the widest neck.
   reference_asymmetry_ = std::min(0.1, 0.5 * (std::exp(-neck_.high) - 1.0));
 }
@@ -113,19 +116,20 @@ StiffnessTable::Four StiffnessTable::interpolate(double ln_neck, double ln_gap, 
 double StiffnessTable::measure() const {
   // Between Chebyshev points and at the ends of a range the error of a polynomial has its extrema.
   constexpr int kSide = 4;
+  const int necks = neck_.points(kSide), gaps = gap_.points(kSide);
   const auto place = [&](const Range& range, Index points, Index k) {
     const Index extremum = k * points / (kSide - 1);
     return 0.5 * (range.low + range.high) -
            0.5 * (range.high - range.low) *
                std::cos(M_PI * static_cast<double>(extremum) / static_cast<double>(points));
   };
-  std::vector<double> errors(kSide * kSide);
+  std::vector<double> errors(static_cast<std::size_t>(necks * gaps));
   for_blocks(errors.size(), 1, [&](std::size_t check, std::size_t) {
     stop_if_interrupted();
-    const int i = static_cast<int>(check) / kSide, j = static_cast<int>(check) % kSide;
+    const int i = static_cast<int>(check) / gaps, j = static_cast<int>(check) % gaps;
     const double neck = place(neck_, equal_.neck.size(), i), gap = place(gap_, equal_.gap.size(), j);
     const bool fits = std::exp(neck) * (1.0 + asymmetry_) < 0.99;
-    const double asymmetry = (i + j) % 2 == 1 && fits ? asymmetry_ : 0.0;
+    const double asymmetry = (errors.size() == 1 || (i + j) % 2 == 1) && fits ? asymmetry_ : 0.0;
     errors[check] = (interpolate(neck, gap, asymmetry) / solve(neck, gap, asymmetry) - 1.0).abs().maxCoeff();
   });
   return *std::max_element(errors.begin(), errors.end());
@@ -133,16 +137,17 @@ double StiffnessTable::measure() const {
 
 StiffnessTable::StiffnessTable(std::span<const BridgeBody> bodies, const Polymer& polymer)
     : polymer_(polymer) {
+  constexpr std::array kPoints = {Points{7, 12}, Points{10, 16}};  // tried in turn
+  constexpr Points kPointsOfChange = {4, 4};
   if (bodies.empty()) return;
   find_range(bodies);
   if (asymmetry_ > 0.0)
-    change_ = fill(kPointsOfChange.neck, kPointsOfChange.gap, [&](double neck, double gap) -> Four {
+    change_ = fill(kPointsOfChange, [&](double neck, double gap) -> Four {
       const double s = reference_asymmetry_ * reference_asymmetry_;
       return (solve(neck, gap, reference_asymmetry_) / solve(neck, gap, 0.0) - 1.0) / s;
     });
   for (const Points& points : kPoints) {
-    equal_ = fill(points.neck, points.gap,
-                  [&](double neck, double gap) -> Four { return solve(neck, gap, 0.0).log(); });
+    equal_ = fill(points, [&](double neck, double gap) -> Four { return solve(neck, gap, 0.0).log(); });
     error_ = measure();
     if (error_ < kWantedError) break;
   }

@@ -22,7 +22,8 @@ bool gap_is_raised(const BridgeBody& body);
 /// With D = 2 D_i D_j/(D_i + D_j) and s = ((D_i − D_j)/(D_i + D_j))², the logarithms of the dimensionless
 /// stiffnesses of equal beads (s = 0) are polynomials of ln d/D and ln δ0/D through Chebyshev points, and so
 /// is, through fewer, the relative change per s: unequal beads change each stiffness by a factor 1 + c s
-/// (found to hold to 1e-4 up to D_j/D_i = 1.5). The table covers the bridges it was made for and no others.
+/// (found to hold to 1e-4 up to D_j/D_i = 1.5). Where all necks, or all gaps, are the same over D, there is
+/// one point of them. The table covers the bridges it was made for and no others.
 class StiffnessTable {
  public:
   /// Solves and measures; in parallel, with results that do not depend on the number of threads. BadInput as
@@ -49,9 +50,11 @@ class StiffnessTable {
   };
   struct Range {
     double low, high;
+    int points(int of_many) const { return high > low ? of_many : 1; }
   };
+  struct Points;
   template <typename Function>
-  Layer fill(int necks, int gaps, const Function& function);
+  Layer fill(const Points& points, const Function& function);
   void find_range(std::span<const BridgeBody> bodies);
   double measure() const;
   Four solve(double ln_neck, double ln_gap, double asymmetry) const;

@@ -110,8 +110,25 @@ INSTANTIATE_TEST_SUITE_P(Table, StiffnessTables,
                          testing::Values(Population{"Typical", 0.49, 0.2, 0.6, 0.064, 1.2},
                                          Population{"WholeRange", 0.499, 0.1, 0.7, 0.1, 1.25},
                                          Population{"Compressible", 0.3, 0.1, 0.75, 0.1, 1.5},
-                                         Population{"EqualBeads", 0.49, 0.1, 0.8, 0.1, 1.0}),
+                                         Population{"EqualBeads", 0.49, 0.1, 0.8, 0.1, 1.0},
+                                         Population{"EqualNecks", 0.49, 0.37, 0.37, 0.1, 1.0},
+                                         Population{"EqualGaps", 0.49, 0.1, 0.8, 1e-3, 1.0}),
                          [](const auto& test) { return test.param.name; });
+
+TEST(Stiffness, WhatIsTheSameForAllBridgesTakesOnePoint) {
+  const Polymer polymer{1.5e6, 0.49};
+  std::vector<BridgeBody> bodies(30, {73.9e-6, 2e-6, 200.9e-6, 200.9e-6});
+  EXPECT_EQ(StiffnessTable(bodies, polymer).solutions(), 1u);
+  bodies.front().gap = 12e-6;
+  const StiffnessTable gaps(bodies, polymer);
+  EXPECT_EQ(gaps.solutions(), 12u);
+  for (const auto& body : {bodies.front(), bodies.back()})
+    EXPECT_LT(largest_error(gaps.at(body), bridge_stiffness(body, polymer)), 1e-5);
+  bodies.front().gap = 2.0001e-6;  // too near for points between
+  EXPECT_LT(largest_error(StiffnessTable(bodies, polymer).at(bodies.front()),
+                          bridge_stiffness(bodies.front(), polymer)),
+            1e-5);
+}
 
 TEST(Stiffness, TouchingBeadsCountAsAThousandthOfTheirDiameterApart) {
   std::vector<BridgeBody> bodies = packing_bridges(20);
