@@ -68,7 +68,7 @@ struct DiagnosisThresholds {
   double seen = 0.9;            ///< runs told from none, from where an effect is seen on [definition]
   double by_slip = 0.05;        ///< level of the test that an effect is told from none [definition]
   double worth_of_all = 10.0;   ///< runs that what all effects need is worth beside an effect's own [replay]
-  double like_pairs = 2.0 / 3;  ///< P(unknown like two effects) over what pairs have beyond one [development]
+  double like_pairs = 2.0;      ///< P(unknown like two effects) over what pairs have beyond one [development]
   double unknown_alone = 0.95;  ///< probability from which `unknown` is the only member [development]
   double least_in_cluster = 40.0;  ///< runs [replay]
   double less_in_cluster = 0.05;   ///< confidence that one cluster may have less than all together [replay]

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/quantity.h"
+#include "diagnosis/repair/shrinkage.h"
 #include "diagnosis/thresholds.h"
 #include "diagnosis/words.h"
 
@@ -118,10 +119,13 @@ std::string where(const Diagnosis& diagnosis) {
 
 std::string how_far(const Diagnosis& diagnosis) {
   const Shrinkage &fitted = diagnosis.fitted, &withheld = diagnosis.withheld;
-  if (diagnosis.explanations.front().magnitudes.empty() || fitted.observations.empty()) return "";
+  const Explanation* added = to_add(diagnosis);
+  if (!added || fitted.observations.empty()) return "";
   if (fitted.nothing_to_close)
     return " The gap of these features together is within the noise: nothing to close.";
-  std::string text = " Added to the simulation, the cause closes ";
+  const bool cause = added == &diagnosis.explanations.front();
+  std::string text =
+      fmt::format(" Added to the simulation, {} closes ", cause ? "the cause" : name_and_id(added->id));
   if (withheld.observations.empty())
     return text + in_words(fitted) +
            " of the gap that it was fitted to; one observation leaves nothing to withhold.";

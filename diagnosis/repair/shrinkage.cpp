@@ -252,14 +252,24 @@ Shrinkage shrinkage_by(const RepairInputs& inputs, const Changes& changes, Diagn
   return shrinkage_on(inputs, compared, left(positions(compared.features)));
 }
 
+const Explanation* to_add(const Diagnosis& diagnosis) {
+  const Explanation& best = diagnosis.explanations.front();
+  if (best.id != kUnknown && best.id != kOtherPairs) return best.magnitudes.empty() ? nullptr : &best;
+  const auto& set = diagnosis.ambiguity_set;
+  for (const auto& e : diagnosis.explanations)
+    if (!e.magnitudes.empty() && std::find(set.begin(), set.end(), e.id) != set.end()) return &e;
+  return nullptr;
+}
+
 void measure_shrinkage(const RepairInputs& inputs, Diagnosis& diagnosis) {
   const Problem& problem = inputs.problem;
   const Comparison& landmarks = problem.landmarks;
   const double excess_before = excess(landmarks.gap);
   diagnosis.fitted = {excess_before, excess_before, 0.0, {0.0, 0.0}, {}};
   diagnosis.withheld = diagnosis.fitted;
-  const auto ids = effects_in(diagnosis.explanations.front().id);
-  if (ids.empty() || excess_before <= 0.0) return;
+  const Explanation* added = to_add(diagnosis);
+  if (!added || excess_before <= 0.0) return;
+  const auto ids = effects_in(added->id);
 
   Bench bench(inputs, diagnosis);
   const Indices all = all_features(landmarks);

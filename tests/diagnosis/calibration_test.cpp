@@ -179,7 +179,7 @@ TEST(Calibration, WhatIsUnknownHasAShareOfWhatPairsHave) {
   for (const auto& id : {"a+b", "a+c", kOtherPairs}) pairs += of(said, id);
   EXPECT_NEAR(pairs / of(said, "none"), 0.45 / 0.3, 1e-12);
   // Beyond the better of their effects; of these only a is weighed by itself.
-  const double like = 2.0 / 3 * (0.2 * (1.0 - std::exp(-2.0)) + 0.1 * (1.0 - std::exp(-1.0)) + 0.08 + 0.07);
+  const double like = 2.0 * (0.2 * (1.0 - std::exp(-2.0)) + 0.1 * (1.0 - std::exp(-1.0)) + 0.08 + 0.07);
   EXPECT_NEAR(of(said, "unknown") / of(said, "none"), (0.05 + like) / 0.3, 1e-12);
   double sum = 0.0;
   for (const auto& h : said) sum += h.probability;

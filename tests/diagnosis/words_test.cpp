@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "diagnosis/repair/shrinkage.h"
 #include "diagnosis/verdict.h"
 
 namespace pendular::diagnosis {
@@ -104,6 +105,23 @@ TEST(Verdict, SaysThatPairsWereNotRunWhereTheyExplainMost) {
   const Diagnosis beside = told({bare(kOtherPairs, 0.6), bare("none", 0.2)}, 2);
   EXPECT_TRUE(says(beside, "but no run has both (--runs); not excluded: no effect (none)."))
       << verdict_of(beside);
+}
+
+TEST(Verdict, WhereUnknownLeadsTheNextThatHasANameIsAdded) {
+  const auto added = [](const Diagnosis& d) {
+    const Explanation* found = to_add(d);
+    return found ? found->id : "";
+  };
+  EXPECT_EQ(added(told({missing(0.7), bare("none", 0.3)}, 2)), "missing_bridges");
+  EXPECT_EQ(added(told({bare("none", 0.6), missing(0.4)}, 2)), "");
+  EXPECT_EQ(added(told({bare("unknown", 0.96), missing(0.04)}, 1)), "");  // it is not in the set
+  Diagnosis d = told({bare("unknown", 0.6), bare("none", 0.1), missing(0.3)}, 3);
+  EXPECT_EQ(added(d), "missing_bridges");
+  EXPECT_EQ(added(told({bare(kOtherPairs, 0.6), missing(0.4)}, 2)), "missing_bridges");
+  d.fitted.observations = {"A"};
+  d.fitted.fraction = 0.8, d.fitted.interval_90 = {0.7, 0.9};
+  EXPECT_TRUE(says(d, "Added to the simulation, bridges missing between near beads (missing_bridges) closes"))
+      << verdict_of(d);
 }
 
 TEST(Verdict, TellsLimitsToTwoDigits) {
