@@ -128,14 +128,13 @@ Design BankFeatures::design(std::vector<std::string>& warnings, int but) const {
   return learn(warnings, but).design;
 }
 
-std::pair<Design, std::vector<KnownRun>> BankFeatures::held_out(int member, int draws,
-                                                                int of_baselines) const {
+std::pair<Design, std::vector<KnownRun>> BankFeatures::held_out(int member, int draws) const {
   std::vector<std::string> ignored;
   Learnt learnt = learn(ignored, member);
   std::vector<KnownRun> held;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     if (points_[k].member != member || points_[k].whole == scaled_) continue;
-    for (int draw = 0; draw < (points_[k].id.empty() ? of_baselines : draws); ++draw) {
+    for (int draw = 0; draw < draws; ++draw) {
       Eigen::VectorXd values = values_[k];
       for (std::size_t f = 0; f < fields_.size(); ++f) {
         const auto& field = fields_[f].second.of_runs[k];

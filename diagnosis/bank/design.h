@@ -36,8 +36,8 @@ class BankFeatures {
   Design design(std::vector<std::string>& warnings, int but = 0) const;
 
   /// The design without one member, and the runs of that member that show all of its features, as other
-  /// experiments would: each `draws` times, those without a change `of_baselines` times.
-  std::pair<Design, std::vector<KnownRun>> held_out(int member, int draws, int of_baselines) const;
+  /// experiments would, each `draws` times.
+  std::pair<Design, std::vector<KnownRun>> held_out(int member, int draws) const;
 
   /// Members whose tests go all the way.
   std::vector<int> members() const;

@@ -202,13 +202,25 @@ double weigh_by_growth(const Group& group, double growth, Eigen::MatrixXd& misse
   return sum / squares;
 }
 
+/// What a covariance has beyond the scatter. Of few runs its positive part alone would be a multiple of the
+/// scatter along their rows where there is nothing: it gets the size that squares have beyond the scatter's.
+Eigen::MatrixXd beyond_scatter(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& scatter) {
+  const Eigen::MatrixXd beyond = covariance - scatter;
+  Eigen::MatrixXd found = positive_part(beyond);
+  const Eigen::ArrayXd unit = scatter.diagonal().array().max(1e-12);
+  const double size = (beyond.diagonal().array() / unit).sum(),
+               of_found = (found.diagonal().array() / unit).sum();
+  return of_found > 0.0 ? Eigen::MatrixXd(std::clamp(size / of_found, 0.0, 1.0) * found) : found;
+}
+
 /// The response's own covariance: of that by which runs are missed, beyond the scatter.
 void set_draws(const Group& group, Eigen::MatrixXd& missed, const Eigen::MatrixXd& scatter,
                Response& response) {
   response.growth = growth_of(group, missed, scatter);
   const double scattered = weigh_by_growth(group, response.growth, missed);
   response.drawn_at = group.scale();
-  response.draws = positive_part(pairwise(missed, 0.0) - scattered * scatter);
+  response.scatter = scattered * scatter;
+  response.draws = beyond_scatter(pairwise(missed, 0.0), response.scatter);
   response.drawn_dof = std::max(2.0, static_cast<double>(group.theta.size()) - group.parameters());
   std::vector<Eigen::Index> complete;
   for (Eigen::Index r = 0; r < missed.rows(); ++r)

@@ -20,9 +20,10 @@ struct Response {
   double drawn_at = 1.0;       ///< |θ| of that covariance
   double growth = 2.0;         ///< power of θ with which it grows
   Eigen::MatrixXd missed =
-      {};                  ///< by how much runs were missed, left out, at drawn_at: a row each that shows all
-  double drawn_dof = 0.0;  ///< degrees of freedom of draws; 0: known
-  double drawn_outside = 0.0;  ///< trace of draws outside the span of all responses, of a reduced response
+      {};  ///< by how much runs were missed, left out, at drawn_at: a row each that shows all
+  Eigen::MatrixXd scatter = {};  ///< covariance of those rows that is the runs' scatter
+  double drawn_dof = 0.0;        ///< degrees of freedom of draws; 0: known
+  double drawn_outside = 0.0;    ///< trace of draws outside the span of all responses, of a reduced response
 
   Eigen::VectorXd at(double theta) const {
     Eigen::VectorXd sum = theta * powers.back();  // Horner's scheme

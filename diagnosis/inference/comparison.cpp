@@ -207,6 +207,7 @@ std::vector<Signature> part_of(const std::vector<Signature>& signatures,
     if (response.early.size() > 0) response.early = Eigen::VectorXd(response.early(rows));
     if (response.draws.size() > 0) response.draws = Eigen::MatrixXd(response.draws(rows, rows));
     if (response.missed.size() > 0) response.missed = Eigen::MatrixXd(response.missed(Eigen::all, rows));
+    if (response.scatter.size() > 0) response.scatter = Eigen::MatrixXd(response.scatter(rows, rows));
   };
   for (auto& part : parts) {
     take(part);

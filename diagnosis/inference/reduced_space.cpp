@@ -57,8 +57,9 @@ void ReducedSpace::reduce(Response& response) const {
   Eigen::MatrixXd rows(response.missed.rows(), size());
   for (Eigen::Index r = 0; r < rows.rows(); ++r)
     rows.row(r) = reduced(response.missed.row(r).transpose()).transpose();
-  response.draws.diagonal().array() += in_fresh_directions(rows);
-  response.missed = {};
+  const double scatter = reduced_covariance(response.scatter).trace() / static_cast<double>(size());
+  response.draws.diagonal().array() += std::max(0.0, in_fresh_directions(rows) - scatter);
+  response.missed = {}, response.scatter = {};
 }
 
 Signature ReducedSpace::reduced(Signature signature) const {

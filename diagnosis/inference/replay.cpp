@@ -15,7 +15,6 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr double kNegligible = 12.0;     // evidence, as a logarithm, below the best one's
-constexpr int kMoreBaselines = 3;        // draws, over those of other runs
 constexpr std::size_t kLeftOutRuns = 3;  // of each effect
 constexpr std::uint64_t kSeedsOfMember = 1000000;
 
@@ -85,7 +84,7 @@ Replayed without_its_effect(const Replayed& run, const Eigen::VectorXd& observed
 std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan& plan,
                                     const BankFeatures& features, const Priors& priors, int member, int draws,
                                     const std::vector<std::size_t>& left_out) {
-  const auto [design, held] = features.held_out(member, draws, kMoreBaselines * draws);
+  const auto [design, held] = features.held_out(member, draws);
   const Comparison learnt = compare(experiment, plan, design);
   const Weigher weigher(learnt.gap, learnt.signatures, learnt.together, priors, Pairs::run);
   const Errors errors(learnt);

@@ -153,6 +153,37 @@ TEST(Emulator, FindsHowWhatDrawsDifferByGrows) {
   }
 }
 
+TEST(Emulator, WhatFewRunsAreMissedByIsNoMoreThanTheirSquaresSay) {
+  // Six runs of effects that do nothing, and of one whose draws differ by three times the scatter, in forty
+  // features.
+  constexpr Eigen::Index kFeatures = 40;
+  std::vector<DesignRun> runs;
+  std::uint64_t next = 0;
+  const auto scattered = [&](double times) {
+    Eigen::VectorXd values(kFeatures);
+    for (double& one : values) one = times * random_normal(41, next++);
+    return values;
+  };
+  for (int member = 0; member < 12; ++member)
+    runs.push_back({member, "", 0.0, Eigen::VectorXd::Zero(kFeatures)});
+  for (int k = 0; k < 6; ++k) {
+    const double theta = (k + 1) / 6.0;
+    for (int effect = 0; effect < 20; ++effect)
+      runs.push_back({k, std::string("e") + static_cast<char>('a' + effect), theta, scattered(1.0)});
+    runs.push_back({k, "drawn", theta, scattered(3.0 * theta), true});
+  }
+  const auto responses = fit_responses(runs, kFeatures);
+  double sum = 0.0, positive = 0.0;
+  for (int effect = 0; effect < 20; ++effect) {
+    const Signature& found = *responses.find(std::string("e") + static_cast<char>('a' + effect));
+    const auto rows = static_cast<double>(found.missed.rows());
+    sum += found.draws.trace();
+    positive += positive_part(found.missed.transpose() * found.missed / rows - found.scatter).trace();
+  }
+  EXPECT_LT(sum, 0.8 * positive);
+  EXPECT_GT(responses.find("drawn")->draws.trace(), 4.0 * sum / 20.0);
+}
+
 TEST(Emulator, CorrelationsOfMembersAreNotTrustedWhole) {
   Responses responses;
   responses.members = {1, 2};
