@@ -16,11 +16,11 @@ namespace {
 
 constexpr std::size_t kListed = 3;  // names in a row; the report has all
 
-/// The members of the set beside the most probable one.
-std::vector<std::string> others(const Diagnosis& diagnosis) {
+/// The members of the set beside the most probable one, and but for one more.
+std::vector<std::string> others(const Diagnosis& diagnosis, const std::string& but = "") {
   std::vector<std::string> names;
   for (const auto& id : diagnosis.ambiguity_set)
-    if (id != diagnosis.explanations.front().id) names.push_back(name_and_id(id));
+    if (id != diagnosis.explanations.front().id && id != but) names.push_back(name_and_id(id));
   return names;
 }
 
@@ -35,7 +35,16 @@ std::string cause(const Diagnosis& diagnosis) {
     return fmt::format("No effect is needed, probability {}; not excluded: {}.", probability,
                        joined(rest, kListed));
   }
-  if (best.id == "unknown")
+  const Explanation* named = to_add(diagnosis);
+  if (best.id == kUnknown && named && named->magnitudes.size() == 2) {
+    const auto besides = others(diagnosis, named->id);
+    return fmt::format(
+        "The cause is not known: {} would explain the gap, probability {}, but something that is not in the "
+        "library does more often what two effects would, {}{}.",
+        in_words(*named), percent(named->probability), probability,
+        besides.empty() ? "" : "; not excluded: " + joined(besides, kListed));
+  }
+  if (best.id == kUnknown)
     return fmt::format("The cause is not known: no effect of the library explains the gap, probability {}{}.",
                        probability, rest.empty() ? "" : "; not excluded: " + joined(rest, kListed));
   if (best.id == kOtherPairs)

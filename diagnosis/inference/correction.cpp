@@ -134,12 +134,12 @@ const char* why_unknown(const std::vector<Hypothesis>& said, const Correction& c
   double singles = 0.0;  // and none
   for (const auto& h : said)
     if (h.id != kUnknown && !is_pair(h)) singles += h.probability;
-  if (beside_known(said) > correction.gate || (!said.empty() && said.front().id == kUnknown))
-    return "what is left is not like the noise";
+  constexpr const char* kLeft = "what is left is not like the noise";
+  if (beside_known(said) > correction.gate) return kLeft;
   if (left_by_best(said) > correction.farthest)
     return "the best explanation leaves more than replayed runs do";
-  if (pairs > singles) return "something unknown does as often what two effects would";
-  return nullptr;
+  if (pairs > singles) return "something unknown does more often what two effects would";
+  return !said.empty() && said.front().id == kUnknown ? kLeft : nullptr;
 }
 
 AmbiguitySet set_of(const std::vector<Hypothesis>& said, const Correction& correction) {

@@ -124,6 +124,20 @@ TEST(Verdict, WhereUnknownLeadsTheNextThatHasANameIsAdded) {
       << verdict_of(d);
 }
 
+TEST(Verdict, WhereUnknownLeadsAPairThePairIsNamed) {
+  const Explanation pair{"missing_bridges+bead_friction",
+                         0.3,
+                         {{0.1967, {0.1802, 0.2121}}, {-0.2041, {-0.2577, -0.1512}}},
+                         {"fraction", "1"}};
+  const Diagnosis d = told({bare("unknown", 0.65), pair, missing(0.05)}, 3);
+  EXPECT_TRUE(verdict_of(d).starts_with(
+      "The cause is not known: bridges missing between near beads with bead friction other than stated "
+      "(missing_bridges+bead_friction), 20 % (18 to 21 %) and -0.20 (-0.26 to -0.15) would explain the gap, "
+      "probability 30 %, but something that is not in the library does more often what two effects would, "
+      "65 %; not excluded: bridges missing between near beads (missing_bridges)."))
+      << verdict_of(d);
+}
+
 TEST(Verdict, TellsLimitsToTwoDigits) {
   Diagnosis d = told({bare("none", 0.98)}, 1);
   d.unseen = {{"voxel_scale", "fraction", 0.06427}, {"platen_friction", "1", 1.4694}};
