@@ -19,6 +19,7 @@ constexpr std::size_t kMostKept = 256;  // bridges
 BridgeStiffness kept_stiffness(const BridgeBody& body, const Polymer& polymer) {
   static std::mutex guard;
   static std::map<std::array<double, 6>, BridgeStiffness> kept;
+  check_bridge(body, polymer);  // what is not finite has no place in the order of keys
   const std::lock_guard lock(guard);
   const std::array key = {body.neck_diameter,     body.gap,
                           body.diameter_i,        body.diameter_j,

@@ -130,6 +130,17 @@ TEST(Stiffness, WhatIsTheSameForAllBridgesTakesOnePoint) {
             1e-5);
 }
 
+TEST(Stiffness, AskedForAgainItIsTheSameAndWhatIsNoBridgeIsRefused) {
+  Sample sample;
+  const BondStiffness once = bond_stiffness(sample), again = bond_stiffness(sample);
+  EXPECT_EQ(once.normal, again.normal);
+  EXPECT_EQ(once.bending, bridge_stiffness(mean_bridge(sample), polymer_of(sample)).bending);
+  sample.bridges.youngs_modulus *= 2.0;
+  EXPECT_NEAR(bond_stiffness(sample).normal / once.normal, 2.0, 1e-12);
+  sample.bridges.youngs_modulus = std::nan("");
+  EXPECT_THROW(bond_stiffness(sample), BadInput);
+}
+
 TEST(Stiffness, TouchingBeadsCountAsAThousandthOfTheirDiameterApart) {
   std::vector<BridgeBody> bodies = packing_bridges(20);
   BridgeBody floor = bodies[0];
