@@ -26,7 +26,7 @@ using PairProperties = PairData<double>;
 template <typename Real>
 struct LawNumbers {
   Real k_glass, kt_glass;  ///< contact stiffness, N/m
-  Real per_overlap;        ///< of glass after Hertz: 1/LawParameters::hertz_overlap, 1/m
+  Real per_overlap;        ///< of glass after Hertz: 1 over its overlap in the law, 1/m
   Real friction;           ///< μ
   Real damping;            ///< ζ, N s/m
   Real dt;                 ///< time step, s

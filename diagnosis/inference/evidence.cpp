@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "base/parallel.h"
 #include "diagnosis/inference/log_sum.h"
@@ -91,9 +92,9 @@ Signature with_visible(Signature reduced) {
 
 /// What an effect does at its usual magnitude, of either sign where it has two: the larger one.
 Eigen::VectorXd at_scale(const Signature& signature) {
-  const Eigen::VectorXd above = signature.at(signature.scale), below = signature.at(-signature.scale);
+  Eigen::VectorXd above = signature.at(signature.scale), below = signature.at(-signature.scale);
   if (signature.highest <= 0.0) return below;
-  return signature.lowest < 0.0 && below.norm() > above.norm() ? below : above;
+  return signature.lowest < 0.0 && below.norm() > above.norm() ? std::move(below) : std::move(above);
 }
 
 }  // namespace
