@@ -144,10 +144,8 @@ std::string kept_table(const Scores& s) {
              "|\n\n"
              "Promised and reached are of the {} cases that replays stand for: nothing or one effect of the "
              "library withheld, and a bank large enough to promise; at its magnitude, by replayed runs of "
-             "the "
-             "same effect and sign, the nearer in magnitude the heavier. Upper limits are those of effects "
-             "that "
-             "are there, hidden ones too, and that the report calls hardly shown.\n",
+             "the same effect and sign, the nearer in magnitude the heavier. Upper limits are those of "
+             "effects that are there, hidden ones too, and that the report calls hardly shown.\n",
              s.kept.promises);
 }
 

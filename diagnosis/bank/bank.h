@@ -65,11 +65,12 @@ struct BankPlan {
 /// Baselines of every member; each effect at sixths of its range (in both directions where it has two, then
 /// at quarters; of errors that the tables of beads show by themselves at parts of one and a half of that) and
 /// each believed input at one and two standard deviations to both sides, on members in turn; other readings
-/// of the law on four members. Effects that draw are drawn three times at thirds of their range. Tests that
-/// end at a scan are short: of them there are twice as many members and draws. Scans see small effects: with
-/// one, effects of one sign are run at 0.06 of their range, too. Specimens of more than 2,000
-/// beads that were not measured get a smaller one of the same shape, beside baselines of their own size.
-/// Effects that only change what instruments read need no runs. Leaving an effect out changes no other run.
+/// of the law on eight members, or all. Effects that draw are drawn three times at thirds of their range.
+/// Tests that end at a scan are short: of them there are four times as many members without an effect, and
+/// twice as many draws. Scans see small effects: with one, effects of one sign are run at 0.06 of their
+/// range, too. Specimens of more than 2,000 beads that were not measured get a smaller one of the same shape,
+/// beside baselines of their own size. Effects that only change what instruments read need no runs. Leaving
+/// an effect out changes no other run.
 BankPlan plan_bank(const Experiment& experiment, const BankOptions& options, const fs::path& beads_folder);
 
 /// The seed of what effects draw. It does not follow the place of an effect in the list: runs stay those of a

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "diagnosis/bank/mean_row.h"
+#include "diagnosis/kinds/kind.h"
 #include "diagnosis/thresholds.h"
 #include "effects/list.h"
 
@@ -55,9 +56,13 @@ BankFeatures::BankFeatures(Level level, const Experiment& experiment, const Bank
     values_[k] = simulated_features(experiment, plan.conditions, observed_, tests[k], points_[k].changes);
   });
   if (level == Level::readings)
-    for (std::size_t index = 0; index < experiment.observations.size(); ++index)
+    for (std::size_t index = 0; index < experiment.observations.size(); ++index) {
+      const Observation& observation = experiment.observations[index];
       if (auto bank = field_bank(experiment, plan, index, tests))
         fields_.emplace_back(index, std::move(*bank));
+      else if (observation.kind->field && !observation.beads.empty())
+        unread_.push_back(observation.name);
+    }
 }
 
 DesignRun BankFeatures::run_of(std::size_t k, Eigen::VectorXd values) const {
@@ -71,6 +76,10 @@ DesignRun BankFeatures::run_of(std::size_t k, Eigen::VectorXd values) const {
 
 BankFeatures::Learnt BankFeatures::learn(std::vector<std::string>& warnings, int but) const {
   Learnt learnt;
+  for (const auto& name : unread_)
+    warnings.push_back(name +
+                       ": its displacements are not used: too few beads are held by three bonds each, or no "
+                       "simulation shows them");
   ObservedFeatures observed = observed_;
   std::vector<Eigen::VectorXd> values = values_;
   Eigen::VectorXd by_noise = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(observed.features.size()));

@@ -32,7 +32,7 @@ class BankFeatures {
                const std::vector<SimulatedTests>& tests);
 
   /// Without the runs of one member, 0: with all. Features that fewer than four of five runs show are left
-  /// out, with a word in `warnings` where they are landmarks. BadInput where none is left.
+  /// out, with a word in `warnings` where they are landmarks or a field. BadInput where none is left.
   Design design(std::vector<std::string>& warnings, int but = 0) const;
 
   /// The design without one member, and the runs of that member that show all of its features, as other
@@ -50,6 +50,7 @@ class BankFeatures {
   ObservedFeatures observed_;                              // without those of fields
   std::vector<Eigen::VectorXd> values_;                    // per point; likewise
   std::vector<std::pair<std::size_t, FieldBank>> fields_;  // by observation
+  std::vector<std::string> unread_;                        // observations whose fields are not read
   std::vector<DesignPoint> points_;
   bool scaled_ = false;
   std::string name_;  // of the experiment

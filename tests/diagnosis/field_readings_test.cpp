@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "base/error.h"
+#include "diagnosis/bank/design.h"
 #include "diagnosis/experiment/experiment.h"
 #include "followed.h"
 #include "packing/bridges.h"
@@ -180,6 +182,22 @@ TEST_F(FieldReadingsTest, BeadsThatTheScanLostAreNoLoss) {
   EXPECT_NEAR(std::fabs(named(part, "mode_1")), std::fabs(named(whole, "mode_1")),
               0.1 * std::fabs(named(whole, "mode_1")));
   EXPECT_NEAR(named(part, "field_size"), named(whole, "field_size"), 0.1);
+}
+
+TEST_F(FieldReadingsTest, BeadsThatNothingHoldsAreNotReadAndThatIsSaid) {
+  auto apart = followed_specimen();
+  for (auto& bead : apart) bead.centre *= 1.2;
+  write_beads(folder / "beads.csv", apart, {});
+  write_text(folder / "scan.csv", test::followed_text(followed_rows(apart, kStrain), kStrain));
+  experiment = read_experiment(folder / "e.toml");
+  plan.conditions = {{experiment.sample, folder / "beads.csv", {0}}};
+  plan.size = {1.0};
+  EXPECT_FALSE(field_bank(experiment, plan, 0, tests));
+  std::vector<std::string> warnings;
+  const BankFeatures features(Level::readings, experiment, plan, tests);
+  EXPECT_THROW(features.design(warnings), BadInput);  // there is nothing else
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("scan: its displacements are not used"), std::string::npos) << warnings[0];
 }
 
 TEST_F(FieldReadingsTest, WithoutABaselineThereAreNone) {
