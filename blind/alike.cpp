@@ -46,9 +46,13 @@ double distance_from_truth(const Verdict& verdict, const std::string& answer) {
 bool is_right(const Verdict& verdict, const std::string& answer, Counting counting) {
   if (answer == verdict.answer) return true;
   if (counting == Counting::by_name || !verdict.said) return false;
-  const auto& untold = verdict.said->untold;
-  if ((answer == "none" && untold.contains(verdict.answer)) ||
-      (verdict.answer == "none" && untold.contains(answer)))
+  const auto& effects = verdict.truth.effects;
+  if (answer == "none" && effects.size() == 1 && verdict.answer == effects.front().first &&
+      verdict.untold(verdict.answer, effects.front().second))
+    return true;
+  if (const auto claim = verdict.said->claims.find(answer);
+      verdict.answer == "none" && claim != verdict.said->claims.end() && claim->second.magnitude &&
+      verdict.untold(answer, *claim->second.magnitude))
     return true;
   return distance_from_truth(verdict, answer) < kTold;
 }

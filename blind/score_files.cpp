@@ -73,6 +73,7 @@ ordered_json json_of(const Kept& kept) {
 
 ordered_json json_of(const Bars& bars) {
   return {{"naming", json_of(bars.naming)},
+          {"set_is_right", json_of(bars.set_is_right)},
           {"single_effects_first", json_of(bars.single_first)},
           {"pairs_in_set", json_of(bars.pairs_in_set)},
           {"outside_flagged", json_of(bars.flagged)},

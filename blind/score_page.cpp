@@ -42,6 +42,8 @@ std::string bars_table(const Scores& s) {
                         aim_with_scan, found(s.other_engine_without_scan), found(s.other_engine_with_scan));
   };
   line("right answer in the set", "≥ 90 %", "≥ 95 %", [](const Bars& b) { return words(b.naming.in_set); });
+  line("the same, or `none` where the report says that less is not told", "", "",
+       [](const Bars& b) { return words(b.set_is_right); });
   line("mean size of the set", "≤ 2.5", "≤ 1.6", [](const Bars& b) { return number(b.naming.set_size); });
   line("most probable is right, single effects", "≥ 65 %", "≥ 85 %",
        [](const Bars& b) { return words(b.single_first); });
@@ -118,8 +120,9 @@ std::string names_table(const Scores& s) {
          fmt::format(
              "\nBy class, answers count as one with the truth that are nearer to it than {:g} standard "
              "deviations of the noise on the case's own observations, at its magnitude: an ideal observer "
-             "could not tell them apart. Effects that the report's replay told from none in less than half "
-             "of their runs are one with none. Outside mechanisms are in no class. {} of {} cases have a "
+             "could not tell them apart. An effect below the magnitude from which on the report tells it "
+             "from "
+             "none is one with none. Outside mechanisms are in no class. {} of {} cases have a "
              "diagnosis that states such distances; in the others the name alone counts.\n",
              kTold, s.with_distances, s.all.in_set.of);
 }
@@ -143,8 +146,11 @@ std::string kept_table(const Scores& s) {
              "| aim | | 93–97 %, each stratum ≥ 90 % | | as promised | | | ≤ 5 % | 88–92 % | ≥ 95 % | ≤ 1 % "
              "|\n\n"
              "Promised and reached are of the {} cases that replays stand for: nothing or one effect of the "
-             "library withheld, and a bank large enough to promise; at its magnitude, by replayed runs of "
-             "the same effect and sign, the nearer in magnitude the heavier. Upper limits are those of "
+             "library withheld, and a bank large enough to promise. In the set is the effect or, below the "
+             "magnitude from which on the report tells it from none, `none`; at its magnitude, the effect "
+             "alone, by replayed runs of the same effect and sign, the nearer in magnitude the heavier. "
+             "Upper "
+             "limits are those of "
              "effects that are there, hidden ones too, and that the report calls hardly shown.\n",
              s.kept.promises);
 }

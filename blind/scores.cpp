@@ -157,7 +157,7 @@ Kept kept(const std::vector<Verdict>& verdicts) {
     if (!promised || !is_replayed(verdict)) continue;
     in_set.push_back(promised->in_set), size.push_back(promised->set_size);
     theta.push_back(promised->theta_held), alarms.push_back(promised->false_alarms);
-    kept.in_set.count(verdict.in_set(verdict.answer));
+    kept.in_set.count(verdict.set_is_right());
     if (const auto at = verdict.promised_in_set()) {
       there.push_back(*at);
       kept.in_set_there.count(verdict.in_set(verdict.answer));
@@ -177,6 +177,7 @@ Bars bars(const std::vector<Verdict>& verdicts) {
   Bars bars;
   bars.naming = naming(verdicts);
   for (const auto& verdict : verdicts) {
+    bars.set_is_right.count(verdict.set_is_right());
     if (verdict.truth.effects.size() == 1) bars.single_first.count(verdict.exact());
     if (verdict.truth.effects.size() == 2) bars.pairs_in_set.count(verdict.in_set(verdict.answer));
     if (verdict.truth.mechanism.empty()) continue;

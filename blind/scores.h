@@ -56,7 +56,7 @@ struct Kept {
   /// Of those whose magnitude was replayed (Verdict::promised_in_set): mean, and what came.
   double promised_there = 0.0;
   Proportion in_set_there;
-  Proportion in_set;          ///< of the same cases
+  Proportion in_set;          ///< of the same cases: Verdict::set_is_right()
   double set_size = 0.0;      ///< likewise
   Proportion unknown_alarms;  ///< right answer not `unknown`, and it is in the set
   /// Upper limits of hardly shown effects that are there, hidden ones too: |θ| is not above.
@@ -69,6 +69,7 @@ struct Kept {
 /// What is promised, of cases with the same observations.
 struct Bars {
   Naming naming;
+  Proportion set_is_right;  ///< Verdict::set_is_right()
   Proportion single_first;  ///< one effect was withheld, and it is the most probable
   Proportion pairs_in_set;
   Proportion flagged;        ///< outside mechanisms: `unknown` is in the set or first

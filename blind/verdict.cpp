@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/csv.h"
@@ -16,6 +17,7 @@ using nlohmann::json;
 
 constexpr double kNearly = 0.35;      // of the logarithm of a magnitude, over which runs stand for it
 constexpr double kLeastWeight = 0.1;  // of such runs together, below which none does
+constexpr double kNowhere = std::numeric_limits<double>::infinity();
 constexpr const char* kMark = "without_truth.txt";
 
 json parsed(const fs::path& path) {
@@ -71,8 +73,9 @@ void read_promise(Diagnosed& said, const json& promise) {
     said.promised_of_none = none.at("in_set").get<double>() / none.at("cases").get<double>();
   const json effects = promise.value("effects", json::object());  // items() does not keep it alive
   for (const auto& [id, replayed] : effects.items()) {
-    if (2 * replayed.at("told_from_none").get<std::size_t>() < replayed.at("cases").get<std::size_t>())
-      said.untold.insert(id);
+    if (const auto from = replayed.find("told_from"); from != replayed.end())
+      said.told_from[id] = {number_in(*from, "negative").value_or(kNowhere),
+                            number_in(*from, "positive").value_or(kNowhere)};
     const json runs = replayed.value("runs", json::array());
     for (const auto& run : runs)
       said.replayed[id].emplace_back(run.at("magnitude").get<double>(), run.at("in_set").get<bool>());
@@ -146,6 +149,20 @@ double Verdict::probability(const std::string& id) const {
 
 bool Verdict::in_set(const std::string& id) const {
   return said && std::find(said->set.begin(), said->set.end(), id) != said->set.end();
+}
+
+bool Verdict::untold(const std::string& effect, double theta) const {
+  if (!said) return false;
+  const auto from = said->told_from.find(effect);
+  if (from == said->told_from.end()) return false;
+  return std::fabs(theta) < (theta < 0.0 ? from->second.first : from->second.second);
+}
+
+bool Verdict::set_is_right() const {
+  if (in_set(answer)) return true;
+  const auto& effects = truth.effects;
+  return effects.size() == 1 && answer == effects.front().first && in_set("none") &&
+         untold(answer, effects.front().second);
 }
 
 bool without_truth(const fs::path& reports) {

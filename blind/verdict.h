@@ -2,7 +2,6 @@
 
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,7 +49,8 @@ struct Diagnosed {
   /// Of each effect, its replayed runs: magnitude, and whether the set is right.
   std::map<std::string, std::vector<std::pair<double, bool>>> replayed;
   std::map<std::string, double> limits;  ///< upper limits of |θ| of effects that are hardly shown
-  std::set<std::string> untold;  ///< effects that the replay tells from none in less than half of their runs
+  /// Of each effect, |θ| from which on the replay tells it from none, below zero and above.
+  std::map<std::string, std::pair<double, double>> told_from;
   /// Squared distance of each effect at its usual magnitude from the nearest that another can do, and from
   /// "none".
   std::map<std::string, std::map<std::string, double>> squared_distance;
@@ -67,6 +67,10 @@ struct Verdict {
   std::string top() const;  ///< the most probable explanation; empty where nothing was said
   double probability(const std::string& id) const;
   bool in_set(const std::string& id) const;
+  /// Whether the report says that so much of an effect is not told from none.
+  bool untold(const std::string& effect, double theta) const;
+  /// What a replay promises of a set: that it holds the answer, or none where the one true effect is untold.
+  bool set_is_right() const;
   /// How often, by the replay, a set is right where the truth is what it is: nothing, or one effect of nearly
   /// its magnitude and of its sign. Nothing where no such run was replayed.
   std::optional<double> promised_in_set() const;

@@ -60,7 +60,7 @@ struct Shrinkage {
   bool nothing_to_close = false;  ///< the gap before is within the noise: fraction and interval are zero
 };
 
-/// An effect that these observations hardly show, and how large it may be (upper_limit()).
+/// An effect that may be there though nothing shows it, and how large it may be (upper_limit()).
 struct Unseen {
   std::string effect, unit;
   double limit = 0.0;
@@ -107,10 +107,11 @@ struct Diagnosis {
   std::vector<Explanation> explanations;   ///< most probable first; every effect, none, unknown; pairs
   std::vector<std::string> ambiguity_set;  ///< explanations that cannot be told apart here, best one first
   double set_probability = 0.0;
-  std::string nearest_signature;     ///< the single effect of least χ², or "none"
-  Promise promise;                   ///< how far all this holds, from the replay
-  std::vector<Unseen> unseen;        ///< effects that the replay hardly shows and that are not in the set
-  double p_value = 1.0;              ///< of the best explanation's χ² under noise alone
+  std::string nearest_signature;  ///< the single effect of least χ², or "none"
+  Promise promise;                ///< how far all this holds, from the replay
+  std::vector<Unseen>
+      unseen;            ///< effects outside the set that none stands for (stand_in()), or nothing shows
+  double p_value = 1.0;  ///< of the best explanation's χ² under noise alone
   std::vector<std::string> effects;  ///< rows of `signatures` and `separation`
   Eigen::MatrixXd signatures;        ///< effect × feature at the effect's scale, over the feature's noise
   Eigen::MatrixXd separation;        ///< isolability(), effects × (effects + 1)

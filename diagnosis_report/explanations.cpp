@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "diagnosis/inference/evidence.h"
+#include "effects/list.h"
 #include "viz/labels.h"
 
 namespace pendular::diagnosis_report {
@@ -23,6 +25,16 @@ bool is_pair(const std::string& id) {
 bool in_ambiguity_set(const diagnosis::Diagnosis& diagnosis, const std::string& id) {
   const auto& set = diagnosis.ambiguity_set;
   return std::find(set.begin(), set.end(), id) != set.end();
+}
+
+std::pair<double, double> told_from(const diagnosis::Diagnosis& diagnosis, const std::string& id) {
+  constexpr double kNot = std::numeric_limits<double>::quiet_NaN();
+  const auto& all = diagnosis.promise.correction.told_from;
+  const auto from = all.find(id);
+  if (from == all.end()) return {kNot, kNot};
+  const effects::Effect& effect = effects::find_effect(id, "diagnosis");
+  return {effect.lowest < 0.0 ? from->second.negative : kNot,
+          effect.highest > 0.0 ? from->second.positive : kNot};
 }
 
 bool is_suspect(const diagnosis::Diagnosis& diagnosis, const std::string& effect) {

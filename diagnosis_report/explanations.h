@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/diagnosis.h"
@@ -15,6 +16,10 @@ bool in_ambiguity_set(const diagnosis::Diagnosis& diagnosis, const std::string& 
 
 /// Whether an effect is named by any of them.
 bool is_suspect(const diagnosis::Diagnosis& diagnosis, const std::string& effect);
+
+/// |θ| from which on an effect is told from none, below zero and above (Correction::told_from); not a number
+/// where it has no such sign, or nothing was learnt.
+std::pair<double, double> told_from(const diagnosis::Diagnosis& diagnosis, const std::string& effect);
 
 /// "observation: feature" for figures, the observation's name shortened where it is long.
 std::string feature_label(const diagnosis::Feature& feature);

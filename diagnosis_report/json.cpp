@@ -7,6 +7,7 @@
 #include <map>
 
 #include "diagnosis/words.h"
+#include "diagnosis_report/explanations.h"
 
 namespace pendular::diagnosis_report {
 namespace {
@@ -169,6 +170,9 @@ ordered_json promise_of(const Diagnosis& d) {
     effects[id] = {
         {"cases", effect.cases},   {"told_from_none", effect.told_from_none}, {"first", effect.first},
         {"in_set", effect.in_set}, {"seen_from", number(effect.seen_from())}, {"runs", runs}};
+    const auto [negative, positive] = told_from(d, id);
+    if (!std::isnan(negative)) effects[id]["told_from"]["negative"] = number(negative);
+    if (!std::isnan(positive)) effects[id]["told_from"]["positive"] = number(positive);
   }
   return {{"cases", p.cases},
           {"confidence", number(p.confidence)},

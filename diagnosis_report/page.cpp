@@ -117,8 +117,9 @@ viz::ReportSection promise_section(const Diagnosis& d) {
   auto out = section("What this can promise", text, {});
   out.tables = {to_report(shown_promise_table(d),
                           "Replayed runs of each effect: shares told from none, named first, and answered by "
-                          "a set that holds it; and the magnitude from which on nine in ten are told from "
-                          "none (empty: at none of the bank). Smaller ones may pass for nothing."),
+                          "a right set; magnitudes, below zero and above, from which on half of the runs are "
+                          "told from none, which stands for smaller ones; and the magnitude from which on "
+                          "nine in ten are told (empty: at none of the bank)."),
                 to_report(reliability_table(d),
                           "How often the most probable explanation of a replayed run was right.")};
   return out;

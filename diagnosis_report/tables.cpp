@@ -157,17 +157,18 @@ Table excluded_table(const Diagnosis& d) {
 }
 
 Table promise_table(const Diagnosis& d) {
-  Table table{
-      "promises",
-      {"effect", "name", "replayed_runs", "told_from_none", "named_first", "in_set", "seen_from", "unit"},
-      {}};
+  Table table{"promises",
+              {"effect", "name", "replayed_runs", "told_from_none", "named_first", "in_set",
+               "told_from_negative", "told_from_positive", "seen_from", "unit"},
+              {}};
   for (const auto& [id, effect] : d.promise.effects) {
     const double runs = static_cast<double>(effect.cases);
+    const auto [negative, positive] = told_from(d, id);
     const std::string unit = effect.runs.empty() ? "" : effects::find_effect(id, "diagnosis").unit;
     table.rows.push_back({id, diagnosis::plain_name(id), runs,
                           static_cast<double>(effect.told_from_none) / runs,
                           static_cast<double>(effect.first) / runs, static_cast<double>(effect.in_set) / runs,
-                          effect.seen_from(), unit});
+                          negative, positive, effect.seen_from(), unit});
   }
   return table;
 }
@@ -177,8 +178,10 @@ Table shown_promise_table(const Diagnosis& d) {
   table.columns.pop_back();
   for (auto& row : table.rows) {
     for (const std::size_t column : {3, 4, 5}) row[column] = percent(std::get<double>(row[column]));
-    const double from = std::get<double>(row[6]);
-    row[6] = std::isfinite(from) ? diagnosis::limit_in_words(from, std::get<std::string>(row[7])) : "";
+    for (const std::size_t column : {6, 7, 8}) {
+      const double from = std::get<double>(row[column]);
+      row[column] = std::isfinite(from) ? diagnosis::limit_in_words(from, std::get<std::string>(row[9])) : "";
+    }
     row.pop_back();
   }
   return table;

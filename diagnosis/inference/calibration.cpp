@@ -16,6 +16,7 @@ namespace {
 constexpr double kTemperatures[] = {1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0};
 constexpr double kLeastProbability = 1e-9;  // that a wrong answer is charged with
 constexpr double kConfident = 0.9;          // probability of what is said without doubt
+constexpr int kSteps = 5;                   // in which a level is raised
 constexpr double kBins[] = {0.0, 0.4, 0.6, 0.8, 0.9, 1.0};
 
 /// The least value that ⌈(n+1) share⌉ of these do not exceed: of the n+1 to come as many, whatever their law.
@@ -72,9 +73,17 @@ bool holds_any(const AmbiguitySet& set, const std::vector<std::string>& ids) {
   return std::any_of(ids.begin(), ids.end(), [&](const std::string& id) { return holds(set, id); });
 }
 
-/// Whether a set is right: it holds the truth, or what stands for it where the truth is unseen.
-bool right(const AmbiguitySet& set, const std::string& truth, const Correction& correction) {
-  return holds(set, truth) || (correction.unseen.contains(truth) && holds_any(set, plainer(truth)));
+/// Whether a run's effect is told from none, or its pair from none and its effects.
+bool told_apart(const Replayed& one, const std::string& truth, const Correction& correction) {
+  if (one.truth.size() != 1) return !correction.untold_pairs.contains(truth);
+  const auto from = correction.told_from.find(truth);
+  return from == correction.told_from.end() || from->second.tells(one.truth.begin()->second);
+}
+
+/// Whether a set is right: it holds the truth, or what stands for it where it is not told apart.
+bool right(const AmbiguitySet& set, const Replayed& one, const Correction& correction) {
+  const std::string truth = truth_of(one);
+  return holds(set, truth) || (!told_apart(one, truth, correction) && holds_any(set, plainer(truth)));
 }
 
 /// Truths in the order of the level that they need at the mean, split in two where the parts differ most; one
@@ -110,7 +119,7 @@ void learn_levels(const std::vector<std::vector<Hypothesis>>& said, const Cases&
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const std::string truth = truth_of(*cases[k]);
     double level = before(said[k], truth);
-    if (found.unseen.contains(truth))
+    if (!told_apart(*cases[k], truth, found))
       for (const auto& id : plainer(truth)) level = std::min(level, before(said[k], id));
     needed[truth].push_back(level);
   }
@@ -138,20 +147,47 @@ double by_slips(int told, int n) {
   return 1.0 - below;
 }
 
-/// Effects whose runs are told from none, and pairs whose runs are told from their effects and none, no more
-/// often than slips explain.
-std::set<std::string> unseen_in(const std::vector<std::vector<Hypothesis>>& said, const Cases& cases,
-                                const Correction& correction) {
-  std::map<std::string, std::pair<int, int>> told;  // runs told apart, and all
-  for (std::size_t k = 0; k < cases.size(); ++k) {
-    const std::string truth = truth_of(*cases[k]);
-    auto& [apart, all] = told[truth];
-    apart += !holds_any(set_of(said[k], correction), plainer(truth)), ++all;
+/// |θ| that divides runs best into those that are told from none with this share and more, the larger ones,
+/// and those that are not: where the sum over the larger ones of what they have beyond the share is largest,
+/// which is where an isotonic regression passes it. Infinite where it does at no magnitude.
+double least_told(std::vector<ReplayedMagnitude> runs, double share) {
+  std::stable_sort(runs.begin(), runs.end(),
+                   [](const auto& a, const auto& b) { return std::fabs(a.theta) > std::fabs(b.theta); });
+  double beyond = 0.0, most = 0.0, from = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    beyond += (runs[k].told_from_none ? 1.0 : 0.0) - share;
+    const bool last_of_level =
+        k + 1 == runs.size() || std::fabs(runs[k + 1].theta) < std::fabs(runs[k].theta);
+    if (last_of_level && beyond >= most) most = beyond, from = std::fabs(runs[k].theta);
   }
-  std::set<std::string> unseen;
-  for (const auto& [id, counts] : told)
-    if (id != kNone && by_slips(counts.first, counts.second) > kThresholds.by_slip) unseen.insert(id);
-  return unseen;
+  return from;
+}
+
+/// From where on effects are told from none, and the pairs that are told from none and their effects no more
+/// often than slips explain.
+void learn_what_is_told(const std::vector<std::vector<Hypothesis>>& said, const Cases& cases,
+                        Correction& found) {
+  std::map<std::string, std::pair<std::vector<ReplayedMagnitude>, std::vector<ReplayedMagnitude>>> effects;
+  std::map<std::string, std::pair<int, int>> pairs;  // runs told apart, and all
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const auto& truth = cases[k]->truth;
+    const AmbiguitySet set = set_of(said[k], found);
+    if (truth.size() == 1) {
+      const double theta = truth.begin()->second;
+      auto& [negative, positive] = effects[truth.begin()->first];
+      (theta < 0.0 ? negative : positive).push_back({theta, !holds(set, kNone), false});
+    } else if (truth.size() == 2) {
+      const std::string id = truth_of(*cases[k]);
+      auto& [apart, all] = pairs[id];
+      apart += !holds_any(set, plainer(id)), ++all;
+    }
+  }
+  const auto from = [](const std::vector<ReplayedMagnitude>& runs) {
+    return runs.empty() ? 0.0 : least_told(runs, kThresholds.told);  // of what was not run nothing is known
+  };
+  for (const auto& [id, runs] : effects) found.told_from[id] = {from(runs.first), from(runs.second)};
+  for (const auto& [id, counts] : pairs)
+    if (by_slips(counts.first, counts.second) > kThresholds.by_slip) found.untold_pairs.insert(id);
 }
 
 /// Widenings of intervals of θ and of upper limits.
@@ -185,6 +221,19 @@ void learn_magnitudes(const Cases& cases, Correction& found) {
   found.widening_of_limits = std::max(1.0, conformal(std::move(limits), kThresholds.of_limits));
 }
 
+/// Levels at which replayed sets are right as often as asked for. Where something stands for the truth that
+/// is told apart all the same, no level helps: more of the others are asked for, half of what is left at
+/// most.
+void learn_levels_of_right_sets(const std::vector<std::vector<Hypothesis>>& said, const Cases& cases,
+                                double confidence, Correction& found) {
+  for (int step = 0; step < kSteps; ++step) {
+    learn_levels(said, cases, confidence + 0.5 * (1.0 - confidence) * step / kSteps, found);
+    double held = 0.0;
+    for (std::size_t k = 0; k < cases.size(); ++k) held += right(set_of(said[k], found), *cases[k], found);
+    if (held >= confidence * static_cast<double>(cases.size())) return;
+  }
+}
+
 Correction learn(const Cases& cases, double confidence) {
   Correction found;
   found.temperature = temperature_of(cases);
@@ -198,10 +247,15 @@ Correction learn(const Cases& cases, double confidence) {
   found.gate = conformal(std::move(alarms), 1.0 - 0.5 * kThresholds.false_alarms);
   found.farthest = conformal(std::move(left), 1.0 - 0.5 * kThresholds.false_alarms);
   learn_levels(said, cases, confidence, found);
-  found.unseen = unseen_in(said, cases, found);
-  learn_levels(said, cases, confidence, found);
+  learn_what_is_told(said, cases, found);
+  learn_levels_of_right_sets(said, cases, confidence, found);
   learn_magnitudes(cases, found);
   return found;
+}
+
+/// How often replayed sets are to be right, for measured ones to be so with this confidence.
+double of_replayed(double confidence) {
+  return 1.0 - kThresholds.missed_by_replay * (1.0 - confidence);
 }
 
 /// Adds what a run whose effect was left out shows of corrections that did not see its member.
@@ -218,7 +272,7 @@ void count(const Replayed& one, const Correction& correction, Promise& promise,
   const auto said = corrected(one.said, correction);
   const AmbiguitySet set = set_of(said, correction);
   const std::string truth = truth_of(one);
-  promise.in_set += right(set, truth, correction);
+  promise.in_set += right(set, one, correction);
   promise.set_size += static_cast<double>(set.ids.size());
   if (one.truth.size() < 2) promise.false_alarms += holds(set, kUnknown), plain += 1.0;
   const double top = said.front().probability;
@@ -229,7 +283,7 @@ void count(const Replayed& one, const Correction& correction, Promise& promise,
   ++effect.cases;
   effect.told_from_none += !holds(set, kNone);
   effect.first += said.front().id == truth;
-  effect.in_set += right(set, truth, correction);
+  effect.in_set += right(set, one, correction);
   if (one.truth.size() == 1)
     effect.runs.push_back({one.truth.begin()->second, !holds(set, kNone), holds(set, truth)});
   if (one.truth.empty()) return;
@@ -258,18 +312,7 @@ std::string truth_of(const Replayed& one) {
 }
 
 double EffectReplay::seen_from() const {
-  std::vector<ReplayedMagnitude> down = runs;
-  std::stable_sort(down.begin(), down.end(),
-                   [](const auto& a, const auto& b) { return std::fabs(a.theta) > std::fabs(b.theta); });
-  double told = 0.0, from = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < down.size(); ++k) {
-    told += down[k].told_from_none;
-    const bool last_of_level =
-        k + 1 == down.size() || std::fabs(down[k + 1].theta) < std::fabs(down[k].theta);
-    if (last_of_level && told >= kThresholds.seen * static_cast<double>(k + 1))
-      from = std::fabs(down[k].theta);
-  }
-  return from;
+  return least_told(runs, kThresholds.seen);
 }
 
 Promise promise_of(const std::vector<Replayed>& replayed, double confidence) {
@@ -286,14 +329,14 @@ Promise promise_of(const std::vector<Replayed>& replayed, double confidence) {
   }
   if (cases.size() < kThresholds.least_cases || members.size() < 3) return promise;
   promise.cases = cases.size();
-  promise.correction = learn(cases, confidence);
+  promise.correction = learn(cases, of_replayed(confidence));
   std::vector<Reliability> bins(std::size(kBins) - 1);
   double magnitudes = 0.0, plain = 0.0;
   for (const int member : members) {
     Cases others;
     std::copy_if(cases.begin(), cases.end(), std::back_inserter(others),
                  [&](const Replayed* one) { return one->member != member; });
-    const Correction without = learn(others, confidence);
+    const Correction without = learn(others, of_replayed(confidence));
     for (const auto* one : cases)
       if (one->member == member) count(*one, without, promise, bins, magnitudes, plain);
     for (const auto* one : outside)

@@ -27,7 +27,7 @@ struct EffectReplay {
   std::size_t cases = 0, told_from_none = 0, first = 0, in_set = 0;
   std::vector<ReplayedMagnitude> runs = {};  ///< of a single effect
 
-  /// The least |θ| of its runs from which on nine in ten are told from none; infinite where it has none.
+  /// The least |θ| of its runs from which on nine in ten are told from none; infinite where there is none.
   double seen_from() const;
 };
 
@@ -57,12 +57,12 @@ struct Promise {
 
 /// From replayed runs with no effect, one, or a pair that was run. `confidence` in (0, 1). Sets are
 /// split-conformal: the least level at which ⌈(n+1) confidence⌉ of n replayed sets hold their truth (Vovk et
-/// al. 2005). Effects whose runs are told from none at that level no more often than slips of 5 % explain
-/// (binomial test at 5 %) are unseen: none stands for them in a set where it is more probable, and the level
-/// is found again. Pairs that are not told from one of their effects likewise, where the evidence is not
-/// strongly for them. `unknown` is let in by the same rule at a false-alarm rate of 5 %, half of it for its
-/// probability and half for χ² of the best explanation; intervals of θ likewise at 90 %, those of effects
-/// with few runs drawn to what all need; upper limits at 95 %.
+/// al. 2005). At that level it is learnt from which magnitude on half of an effect's runs, of either sign,
+/// are told from none: none stands for smaller ones (stand_in()), and a set that holds none is right for
+/// them; and which pairs are told from none and their effects no more often than slips of 5 % explain
+/// (binomial test at 5 %). The level is then found again. `unknown` is let in by the same rule at a
+/// false-alarm rate of 5 %, half of it for its probability and half for χ² of the best explanation; intervals
+/// of θ likewise at 90 %, those of effects with few runs drawn to what all need; upper limits at 95 %.
 ///
 /// Nothing is learnt from runs whose effect was left out; what becomes of them is counted.
 Promise promise_of(const std::vector<Replayed>& replayed, double confidence);

@@ -21,22 +21,6 @@ double probability_of_pairs(const std::vector<Hypothesis>& said) {
   return sum;
 }
 
-/// Whether something stands in the set for an unseen explanation: none or an effect of a pair, where it is
-/// more probable and, of a pair, not strongly outdone by it.
-bool stood_for(const Hypothesis& h, const std::vector<Hypothesis>& said, const AmbiguitySet& set,
-               const Correction& correction) {
-  if (!correction.unseen.contains(h.id)) return false;
-  const bool pair = effects_in(h.id).size() == 2;
-  for (const auto& id : plainer(h.id)) {
-    const Hypothesis* other = said_of(said, id);
-    const bool ranks = other && other->probability > h.probability &&
-                       (!pair || h.log_evidence - other->log_evidence <
-                                     correction.temperature * std::log(kThresholds.strong));
-    if (holds(set, id) && ranks) return true;
-  }
-  return false;
-}
-
 /// Pairs that were not run, as one explanation: whichever is named, no run shows what it does.
 std::vector<Hypothesis> with_others_as_one(std::vector<Hypothesis> said) {
   std::vector<Hypothesis> found;
@@ -142,33 +126,49 @@ const char* why_unknown(const std::vector<Hypothesis>& said, const Correction& c
   return !said.empty() && said.front().id == kUnknown ? kLeft : nullptr;
 }
 
+const Hypothesis* stand_in(const Hypothesis& h, const std::vector<Hypothesis>& said,
+                           const Correction& correction) {
+  const auto effects = effects_in(h.id).size();
+  if (effects == 0 || (effects == 2 && !correction.untold_pairs.contains(h.id))) return nullptr;
+  if (effects == 1) {
+    const auto from = correction.told_from.find(h.id);
+    if (from == correction.told_from.end() || from->second.tells(h.magnitudes.front().mean)) return nullptr;
+  }
+  const double strong = effects == 2 ? correction.temperature * std::log(kThresholds.strong) : INFINITY;
+  const Hypothesis* best = nullptr;
+  for (const auto& id : plainer(h.id))
+    if (const Hypothesis* other = said_of(said, id);
+        other && other->probability > std::max(h.probability, best ? best->probability : 0.0) &&
+        h.log_evidence - other->log_evidence < strong)
+      best = other;
+  return best;
+}
+
 AmbiguitySet set_of(const std::vector<Hypothesis>& said, const Correction& correction) {
   AmbiguitySet set;
   double known = 0.0;
   for (const auto& h : said)
     if (h.id != kUnknown && h.id != kOtherPairs) known += h.probability;
   const bool first = !said.empty() && said.front().id == kUnknown;
+  const bool alone = first && said.front().probability >= kThresholds.unknown_alone;
   if (first) set.ids.push_back(kUnknown);
-  if (!first || said.front().probability < kThresholds.unknown_alone) {
-    double held = 0.0;
-    for (const auto& h : said) {
-      if (h.id == kUnknown) continue;
-      if (h.id == kOtherPairs) {
-        if (&h == &said.front()) set.ids.push_back(h.id);
-        continue;
-      }
-      const auto own = correction.levels.find(h.id);
-      if (held <= (own == correction.levels.end() ? correction.level : own->second)) set.ids.push_back(h.id);
-      held += h.probability / known;
+  double held = 0.0;
+  for (const auto& h : said) {
+    if (h.id == kUnknown || alone) continue;
+    if (h.id == kOtherPairs) {
+      if (&h == &said.front()) set.ids.push_back(h.id);
+      continue;
     }
+    const auto own = correction.levels.find(h.id);
+    const double level = own == correction.levels.end() ? correction.level : own->second;
+    if (held <= level && !stand_in(h, said, correction)) set.ids.push_back(h.id);
+    held += h.probability / known;
   }
-  std::set<std::string> behind;
-  for (const auto& h : said)
-    if (stood_for(h, said, set, correction)) behind.insert(h.id);
-  std::erase_if(set.ids, [&](const std::string& id) { return behind.contains(id); });
   if (!first && said_of(said, kUnknown) && why_unknown(said, correction)) set.ids.push_back(kUnknown);
-  for (const auto& h : said)
-    if (holds(set, h.id) || behind.contains(h.id)) set.probability += h.probability;
+  for (const auto& h : said) {
+    const Hypothesis* other = stand_in(h, said, correction);
+    if (holds(set, other ? other->id : h.id)) set.probability += h.probability;
+  }
   return set;
 }
 

@@ -12,6 +12,13 @@ namespace pendular::diagnosis {
 
 inline constexpr const char *kNone = "none", *kUnknown = "unknown";
 
+/// |θ| from which on an effect is told from none, at either sign; infinite where it is at no magnitude.
+struct ToldFrom {
+  double negative = 0.0, positive = 0.0;
+
+  bool tells(double theta) const { return theta < 0.0 ? -theta >= negative : theta >= positive; }
+};
+
 /// How probabilities, sets and intervals are made to hold what they promise, learnt from a replay; as it
 /// stands, for a bank that is too small for one: wide.
 struct Correction {
@@ -22,10 +29,9 @@ struct Correction {
   double farthest = std::numeric_limits<double>::infinity();  ///< χ² of the best named one, likewise
   std::map<std::string, double> widening = {};                ///< of an effect's interval of θ
   double widening_of_others = 2.0;
-  double widening_of_limits = 2.0;  ///< of upper limits of |θ|, beside that of intervals
-  /// Effects that a set which holds none does not hold; pairs that it does not hold beside a more probable
-  /// effect of theirs, or none, unless their evidence is ten times as large.
-  std::set<std::string> unseen = {};
+  double widening_of_limits = 2.0;                 ///< of upper limits of |θ|, beside that of intervals
+  std::map<std::string, ToldFrom> told_from = {};  ///< of effects; one that is not in it, at any magnitude
+  std::set<std::string> untold_pairs = {};         ///< that are not told from none or an effect of theirs
 };
 
 /// What a set of explanations is made of.
@@ -50,9 +56,15 @@ std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction
 const char* why_unknown(const std::vector<Hypothesis>& corrected, const Correction& correction);
 
 /// Of corrected explanations: `unknown` (why_unknown()), alone where it has nineteen twentieths; and the most
-/// probable of the others until they hold the level, without the unseen that another one in the set stands
-/// for. Pairs that were not run (kOtherPairs) are in it where nothing is more probable.
+/// probable of the others until they hold the level, without those that another one stands for (stand_in()).
+/// Pairs that were not run (kOtherPairs) are in it where nothing is more probable.
 AmbiguitySet set_of(const std::vector<Hypothesis>& corrected, const Correction& correction);
+
+/// What stands in a set for an explanation that is not told from it, if it is more probable: none for an
+/// effect whose mean magnitude is below those that are told from none; for an untold pair the most probable
+/// of its effects and none, unless the pair's evidence is ten times as large. Null where nothing does.
+const Hypothesis* stand_in(const Hypothesis& h, const std::vector<Hypothesis>& corrected,
+                           const Correction& correction);
 
 /// The explanation of this name; null where there is none.
 const Hypothesis* said_of(const std::vector<Hypothesis>& said, const std::string& id);
@@ -60,7 +72,7 @@ const Hypothesis* said_of(const std::vector<Hypothesis>& said, const std::string
 /// Whether a set holds an explanation.
 bool holds(const AmbiguitySet& set, const std::string& id);
 
-/// What stands for an explanation that is not told from it: none for an effect; its effects and none for a
+/// What may stand for an explanation that is not told from it: none for an effect; its effects and none for a
 /// pair.
 std::vector<std::string> plainer(const std::string& id);
 

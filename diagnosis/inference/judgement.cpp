@@ -109,7 +109,39 @@ Priors priors_of(const Comparison& readings, const Rules& rules) {
   return priors;
 }
 
-/// After the set, whose members are not excluded. `directions`: of the reduced space in which χ² is.
+bool is_in(const std::vector<std::string>& ids, const std::string& id) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+bool told_at_no_magnitude(const effects::Effect& effect, const Correction& correction) {
+  const auto from = correction.told_from.find(effect.id);
+  if (from == correction.told_from.end()) return false;
+  return !(effect.lowest < 0.0 && from->second.tells(effect.lowest)) &&
+         !(effect.highest > 0.0 && from->second.tells(effect.highest));
+}
+
+/// After the set. Effects outside it that none stands for there, or that are told at no magnitude, and how
+/// large they may be.
+void set_unseen(const std::vector<Hypothesis>& hypotheses, Diagnosis& diagnosis) {
+  const Correction& correction = diagnosis.promise.correction;
+  const auto& set = diagnosis.ambiguity_set;
+  for (const auto& h : hypotheses) {
+    if (h.magnitudes.size() != 1 || is_in(set, h.id)) continue;
+    const effects::Effect& effect = effects::find_effect(h.id, "diagnosis");
+    const bool behind = is_in(set, kNone) && stand_in(h, hypotheses, correction);
+    if (!behind && !told_at_no_magnitude(effect, correction)) continue;
+    const double largest = std::max(std::fabs(effect.lowest), std::fabs(effect.highest));
+    diagnosis.unseen.push_back(
+        {h.id, effect.unit, std::min(largest, upper_limit(h.magnitudes.front(), correction))});
+  }
+}
+
+bool is_unseen(const Diagnosis& diagnosis, const std::string& id) {
+  return std::any_of(diagnosis.unseen.begin(), diagnosis.unseen.end(),
+                     [&](const Unseen& one) { return one.effect == id; });
+}
+
+/// After the set and the unseen, which are not excluded. `directions`: of the reduced space in which χ² is.
 void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
                       Eigen::Index directions, const Rules& rules, const BankPlan& plan,
                       Diagnosis& diagnosis) {
@@ -120,8 +152,7 @@ void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hyp
     Explanation e{h.id, h.probability, h.magnitudes, {}, h.chi_squared / static_cast<double>(directions)};
     const auto ids = effects_in(h.id);
     for (const auto& id : ids) e.units.push_back(effects::find_effect(id, "diagnosis").unit);
-    const auto& set = diagnosis.ambiguity_set;
-    if (ids.size() == 1 && std::find(set.begin(), set.end(), h.id) == set.end() &&
+    if (ids.size() == 1 && !is_in(diagnosis.ambiguity_set, h.id) && !is_unseen(diagnosis, h.id) &&
         h.probability < rules.excluded &&
         marginal(hypotheses, h.id) < kThresholds.with_pairs * rules.excluded) {
       const auto row =
@@ -138,19 +169,6 @@ void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hyp
     Explanation e{id, 0.0, {Magnitude{}}, {effects::find_effect(id, "diagnosis").unit}, 0.0, true, why};
     diagnosis.explanations.push_back(std::move(e));
   }
-}
-
-void set_unseen(const std::vector<Hypothesis>& hypotheses, Diagnosis& diagnosis) {
-  const Correction& correction = diagnosis.promise.correction;
-  const auto& set = diagnosis.ambiguity_set;
-  for (const auto& h : hypotheses)
-    if (h.magnitudes.size() == 1 && correction.unseen.contains(h.id) &&
-        std::find(set.begin(), set.end(), h.id) == set.end()) {
-      const effects::Effect& effect = effects::find_effect(h.id, "diagnosis");
-      const double largest = std::max(std::fabs(effect.lowest), std::fabs(effect.highest));
-      diagnosis.unseen.push_back(
-          {h.id, effect.unit, std::min(largest, upper_limit(h.magnitudes.front(), correction))});
-    }
 }
 
 void set_groups(const Problem& problem, const Experiment& experiment, Diagnosis& diagnosis) {
@@ -260,11 +278,11 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();
   const AmbiguitySet set = set_of(hypotheses, diagnosis.promise.correction);
   diagnosis.ambiguity_set = set.ids, diagnosis.set_probability = set.probability;
+  set_unseen(hypotheses, diagnosis);
   set_explanations(problem, within_range(hypotheses), directions, rules, plan, diagnosis);
   diagnosis.nearest_signature = nearest_signature(hypotheses, directions);
   const Hypothesis& best = hypotheses.front();
   diagnosis.p_value = p_value_of(best.chi_squared, directions, readings.gap.dof);
-  set_unseen(hypotheses, diagnosis);
   set_groups(problem, experiment, diagnosis);
   std::vector<std::size_t> all(experiment.observations.size());
   std::iota(all.begin(), all.end(), std::size_t{0});

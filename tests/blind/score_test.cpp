@@ -188,18 +188,38 @@ TEST_F(Score, CountsWhatAnIdealObserverCannotTellApartAsOne) {
   EXPECT_EQ(by_class, 4u);
 }
 
-TEST_F(Score, WhatAReplayDoesNotTellFromNoneIsOneWithIt) {
-  const json promise = {{"promise",
-                         {{"effects",
-                           {{"missing_bridges", {{"cases", 10}, {"told_from_none", 4}}},
-                            {"platen_tilt", {{"cases", 10}, {"told_from_none", 5}}}}}}}};
-  for (const char* name : {"c1", "c4"}) add_to_report(reports / name, promise);
-  const auto all = verdicts(open_seals(folder / "split"), reports);
-  EXPECT_TRUE(is_right(all[0], "none", Counting::by_class));
-  EXPECT_FALSE(is_right(all[0], "none", Counting::by_name));
-  EXPECT_FALSE(is_right(all[0], "platen_tilt", Counting::by_class));
-  EXPECT_TRUE(is_right(all[3], "missing_bridges", Counting::by_class));
-  EXPECT_FALSE(is_right(all[3], "platen_tilt", Counting::by_class));
+json told_from(const char* effect, const json& positive) {
+  return {{"promise", {{"effects", {{effect, {{"told_from", {{"positive", positive}}}}}}}}}};
+}
+
+TEST_F(Score, WhatAReportDoesNotTellFromNoneIsOneWithIt) {
+  const auto of = [&](const char* name, std::size_t at, const json& positive) {
+    add_to_report(reports / name, told_from("missing_bridges", positive));
+    return verdicts(open_seals(folder / "split"), reports)[at];
+  };
+  const auto there = [&](const json& positive) { return of("c1", 0, positive); };  // 0.1 of it
+  EXPECT_TRUE(is_right(there(0.11), "none", Counting::by_class));
+  EXPECT_TRUE(is_right(there(nullptr), "none", Counting::by_class));  // told at no magnitude
+  EXPECT_FALSE(is_right(there(0.1), "none", Counting::by_class));
+  EXPECT_FALSE(is_right(there(0.11), "none", Counting::by_name));
+  EXPECT_FALSE(is_right(there(0.11), "platen_tilt", Counting::by_class));
+  // Nothing was withheld, and what is said is less than what is told.
+  report(reports / "c4", {claim("missing_bridges", 0.6, 0.05), claim("none", 0.4)}, {"missing_bridges"});
+  EXPECT_TRUE(is_right(of("c4", 3, 0.06), "missing_bridges", Counting::by_class));
+  EXPECT_FALSE(is_right(of("c4", 3, 0.04), "missing_bridges", Counting::by_class));
+}
+
+TEST_F(Score, ASetWithNoneIsRightForWhatTheReportDoesNotTell) {
+  report(reports / "c1", {claim("none", 0.9), claim("missing_bridges", 0.1)}, {"none"});
+  const auto verdict = [&](const json& positive) {
+    add_to_report(reports / "c1", told_from("missing_bridges", positive));
+    return verdicts(open_seals(folder / "split"), reports)[0];
+  };
+  EXPECT_TRUE(verdict(0.11).set_is_right());
+  EXPECT_FALSE(verdict(0.11).in_set("missing_bridges"));
+  EXPECT_FALSE(verdict(0.1).set_is_right());
+  report(reports / "c1", {claim("platen_tilt", 0.9), claim("none", 0.1)}, {"platen_tilt"});
+  EXPECT_FALSE(verdict(0.11).set_is_right());
 }
 
 TEST_F(Score, PairsAreAlikeWhereWhatStandsForWhatIsNear) {

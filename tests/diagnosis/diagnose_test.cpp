@@ -101,8 +101,8 @@ TEST_F(Diagnose, PromisesWhatReplayedRunsShowForAnyNumberOfThreads) {
   EXPECT_GT(parallel.promise.cases, 100u);
   // Most effects do nothing to the toy: none stands for them.
   EXPECT_GE(parallel.promise.in_set, 0.93);
-  EXPECT_TRUE(parallel.promise.correction.unseen.contains("residual_stress"));
-  EXPECT_FALSE(parallel.promise.correction.unseen.contains("missing_bridges"));
+  EXPECT_FALSE(parallel.promise.correction.told_from.at("residual_stress").tells(0.15));
+  EXPECT_TRUE(parallel.promise.correction.told_from.at("missing_bridges").tells(0.12));
   EXPECT_NEAR(parallel.promise.theta_held, 0.9, 0.05);
   EXPECT_LT(parallel.promise.false_alarms, 0.1);
   EXPECT_EQ(parallel.promise.set_size, serial.promise.set_size);
