@@ -129,12 +129,14 @@ const char* why_unknown(const std::vector<Hypothesis>& said, const Correction& c
 const Hypothesis* stand_in(const Hypothesis& h, const std::vector<Hypothesis>& said,
                            const Correction& correction) {
   const auto effects = effects_in(h.id).size();
-  if (effects == 0 || (effects == 2 && !correction.untold_pairs.contains(h.id))) return nullptr;
   if (effects == 1) {
+    const Hypothesis* none = said_of(said, kNone);
     const auto from = correction.told_from.find(h.id);
-    if (from == correction.told_from.end() || from->second.tells(h.magnitudes.front().mean)) return nullptr;
+    const bool told = from == correction.told_from.end() || from->second.tells(h.magnitudes.front().mean);
+    return !told && none && none->probability > kThresholds.strong * h.probability ? none : nullptr;
   }
-  const double strong = effects == 2 ? correction.temperature * std::log(kThresholds.strong) : INFINITY;
+  if (!correction.untold_pairs.contains(h.id)) return nullptr;
+  const double strong = correction.temperature * std::log(kThresholds.strong);
   const Hypothesis* best = nullptr;
   for (const auto& id : plainer(h.id))
     if (const Hypothesis* other = said_of(said, id);
@@ -150,18 +152,18 @@ AmbiguitySet set_of(const std::vector<Hypothesis>& said, const Correction& corre
   for (const auto& h : said)
     if (h.id != kUnknown && h.id != kOtherPairs) known += h.probability;
   const bool first = !said.empty() && said.front().id == kUnknown;
-  const bool alone = first && said.front().probability >= kThresholds.unknown_alone;
   if (first) set.ids.push_back(kUnknown);
   double held = 0.0;
   for (const auto& h : said) {
-    if (h.id == kUnknown || alone) continue;
+    if (h.id == kUnknown) continue;
     if (h.id == kOtherPairs) {
       if (&h == &said.front()) set.ids.push_back(h.id);
       continue;
     }
     const auto own = correction.levels.find(h.id);
     const double level = own == correction.levels.end() ? correction.level : own->second;
-    if (held <= level && !stand_in(h, said, correction)) set.ids.push_back(h.id);
+    const bool matters = !first || h.probability >= kThresholds.beside_unknown;
+    if (held <= level && matters && !stand_in(h, said, correction)) set.ids.push_back(h.id);
     held += h.probability / known;
   }
   if (!first && said_of(said, kUnknown) && why_unknown(said, correction)) set.ids.push_back(kUnknown);

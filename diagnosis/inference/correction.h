@@ -55,14 +55,16 @@ std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction
 /// runs are, and where pairs together outweigh none and single effects.
 const char* why_unknown(const std::vector<Hypothesis>& corrected, const Correction& correction);
 
-/// Of corrected explanations: `unknown` (why_unknown()), alone where it has nineteen twentieths; and the most
-/// probable of the others until they hold the level, without those that another one stands for (stand_in()).
-/// Pairs that were not run (kOtherPairs) are in it where nothing is more probable.
+/// Of corrected explanations: `unknown` (why_unknown()), and the most probable of the others until they hold
+/// the level, without those that another one stands for (stand_in()) and, where `unknown` is the most
+/// probable, those below a hundredth. Pairs that were not run (kOtherPairs) are in it where nothing is more
+/// probable.
 AmbiguitySet set_of(const std::vector<Hypothesis>& corrected, const Correction& correction);
 
-/// What stands in a set for an explanation that is not told from it, if it is more probable: none for an
-/// effect whose mean magnitude is below those that are told from none; for an untold pair the most probable
-/// of its effects and none, unless the pair's evidence is ten times as large. Null where nothing does.
+/// What stands in a set for an explanation that is not told from it: none, where it is ten times as probable,
+/// for an effect whose mean magnitude is below those that are told from none; for an untold pair the most
+/// probable of its effects and none that is more probable, unless the pair's evidence is ten times as large.
+/// Null where nothing does.
 const Hypothesis* stand_in(const Hypothesis& h, const std::vector<Hypothesis>& corrected,
                            const Correction& correction);
 

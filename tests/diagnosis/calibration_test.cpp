@@ -119,23 +119,32 @@ TEST(Calibration, APairStandsBesideItsEffectsUnlessItIsNotToldFromThem) {
             (Ids{"a+b", "a"}));
 }
 
-TEST(Calibration, NoneStandsForAnEffectTooSmallToBeToldUnlessItIsMoreProbable) {
+TEST(Calibration, NoneStandsForAnEffectTooSmallToBeToldWhereItIsTenTimesAsProbable) {
   Correction correction;
-  correction.level = 0.95;
+  correction.level = 0.99;
   correction.told_from["a"] = {INFINITY, 2.0};
-  const auto said = [](double of_none, double theta) {
-    std::vector<Hypothesis> both = {{"a", 0.0, 0.9 - of_none, {{theta, {0.0, 9.0}}}, 0.0},
-                                    {"none", 0.0, of_none, {}, 0.0}};
-    if (of_none > 0.45) std::swap(both[0], both[1]);
-    both.push_back({"b", 0.0, 0.1, {{1.0, {0.0, 9.0}}}, 0.0});
-    return both;
+  const auto said = [](double of_a, double theta) {
+    return std::vector<Hypothesis>{{"none", 0.0, 0.9 - of_a, {}, 0.0},
+                                   {"b", 0.0, 0.1, {{1.0, {0.0, 9.0}}}, 0.0},
+                                   {"a", 0.0, of_a, {{theta, {0.0, 9.0}}}, 0.0}};
   };
   using Ids = std::vector<std::string>;
-  EXPECT_EQ(set_of(said(0.5, 1.9), correction).ids, (Ids{"none", "b"}));
-  EXPECT_NEAR(set_of(said(0.5, 1.9), correction).probability, 1.0, 1e-12);  // with what none stands for
-  EXPECT_EQ(set_of(said(0.5, 2.0), correction).ids, (Ids{"none", "a", "b"}));
-  EXPECT_EQ(set_of(said(0.5, -8.0), correction).ids, (Ids{"none", "b"}));
-  EXPECT_EQ(set_of(said(0.4, 1.9), correction).ids, (Ids{"a", "none", "b"}));
+  EXPECT_EQ(set_of(said(0.08, 1.9), correction).ids, (Ids{"none", "b"}));
+  EXPECT_NEAR(set_of(said(0.08, 1.9), correction).probability, 1.0, 1e-12);  // with what none stands for
+  EXPECT_EQ(set_of(said(0.08, 2.0), correction).ids, (Ids{"none", "b", "a"}));
+  EXPECT_EQ(set_of(said(0.08, -8.0), correction).ids, (Ids{"none", "b"}));
+  EXPECT_EQ(set_of(said(0.083, 1.9), correction).ids, (Ids{"none", "b", "a"}));
+}
+
+TEST(Calibration, WhatHasLessThanAHundredthIsNotBesideALeadingUnknown) {
+  Correction correction;
+  correction.level = 0.95;
+  const auto said = [](double of_a) {
+    return std::vector<Hypothesis>{{"unknown", 0.0, 1.0 - of_a, {}, 0.0}, {"a", 0.0, of_a, {}, 0.0}};
+  };
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(set_of(said(0.011), correction).ids, (Ids{"unknown", "a"}));
+  EXPECT_EQ(set_of(said(0.009), correction).ids, (Ids{"unknown"}));
 }
 
 TEST(Calibration, StrongEvidenceLetsAPairStandBesideItsEffect) {
@@ -319,7 +328,7 @@ TEST(Calibration, EffectsThatLookLikeNoneAreListed) {
     return set_of(hypotheses, correction).ids;
   };
   using Ids = std::vector<std::string>;
-  EXPECT_EQ(set({{"none", 0.5}, {"c", 0.4}, {"a", 0.1}}), (Ids{"none", "a"}));
+  EXPECT_EQ(set({{"none", 0.85}, {"a", 0.1}, {"c", 0.05}}), (Ids{"none", "a"}));
   EXPECT_EQ(set({{"c", 0.5}, {"a", 0.45}, {"none", 0.05}}), (Ids{"c", "a"}));  // it shows for once
 }
 
