@@ -118,7 +118,7 @@ Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& 
     diagnosis.warnings.push_back(
         "how far the gap shrinks was not measured: no fresh runs were made, as asked");
   diagnosis.places = places_in(experiment, plan, packings, diagnosis.overlays, diagnosis.warnings);
-  if (diagnosis.ambiguity_set.size() > 1) {
+  if (!is_settled(diagnosis)) {
     const BankInHand in_hand{experiment,
                              plan,
                              bank.tests(),

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/quantity.h"
+#include "diagnosis/advice/next_experiments.h"
 #include "diagnosis/repair/shrinkage.h"
 #include "diagnosis/thresholds.h"
 #include "diagnosis/words.h"
@@ -30,8 +31,8 @@ std::string cause(const Diagnosis& diagnosis) {
   const std::string probability = percent(best.probability);
   if (best.id == "none") {
     if (rest.empty())
-      return fmt::format("Experiment and simulation agree: no effect is needed, probability {}.",
-                         probability);
+      return fmt::format("Experiment and simulation agree: no effect is needed{}, probability {}.",
+                         diagnosis.unseen.empty() ? "" : " that these observations would show", probability);
     return fmt::format("No effect is needed, probability {}; not excluded: {}.", probability,
                        joined(rest, kListed));
   }
@@ -83,7 +84,7 @@ std::string what_next(const Diagnosis& diagnosis) {
                        outlook_in_words(first.outlook, next.now));
   }
   const std::string& best = diagnosis.explanations.front().id;
-  if (diagnosis.ambiguity_set.size() < 2 && best != "unknown" && best != kOtherPairs)
+  if (is_settled(diagnosis) && best != "unknown" && best != kOtherPairs)
     return " No further measurement is needed.";
   return next.now.cases == 0 || !next.experiments.empty()
              ? " What to measure next cannot be told from these runs."

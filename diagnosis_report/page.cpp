@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/quantity.h"
+#include "diagnosis/advice/next_experiments.h"
 #include "diagnosis/words.h"
 #include "diagnosis_report/explanations.h"
 #include "diagnosis_report/place_figures.h"
@@ -140,9 +141,9 @@ viz::ReportSection next_section(const Diagnosis& d, const Pictures& pictures) {
   const auto& steps = d.next;
   std::string text;
   if (steps.experiments.empty())
-    text = d.ambiguity_set.size() == 1 ? "One explanation is left: nothing more is needed."
-           : steps.now.cases == 0 ? "The bank is too small to tell what a further measurement would bring."
-                                  : "No further measurement of the list would help.";
+    text = diagnosis::is_settled(d) ? "One explanation is left: nothing more is needed."
+           : steps.now.cases == 0   ? "The bank is too small to tell what a further measurement would bring."
+                                    : "No further measurement of the list would help.";
   const bool lacks_runs = std::any_of(steps.experiments.begin(), steps.experiments.end(),
                                       [](const auto& next) { return next.runs > 0; });
   if (lacks_runs) text += "Where runs are missing, --plan makes them.";

@@ -184,6 +184,12 @@ Question question_after(const Diagnosis& diagnosis) {
   return question;
 }
 
+bool is_settled(const Diagnosis& diagnosis) {
+  const auto& set = diagnosis.ambiguity_set;
+  if (set.size() > 1) return false;
+  return set.empty() || set.front() != "none" || question_after(diagnosis).effects.empty();
+}
+
 Question question_before(const BankPlan& plan, const std::set<std::string>& about) {
   Question question;
   question.probabilities["none"] = 1.0;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "diagnosis/advice/next_experiments.h"
 #include "diagnosis/repair/shrinkage.h"
 #include "diagnosis/verdict.h"
 
@@ -144,6 +145,19 @@ TEST(Verdict, TellsLimitsToTwoDigits) {
   EXPECT_TRUE(
       says(d, "hardly show wrong voxel size up to 6.4 % and platen friction other than stated up to 1.5."))
       << verdict_of(d);
+}
+
+TEST(Verdict, NoneIsNotTheEndWhereWhatItStandsForIsInQuestion) {
+  Diagnosis d = told({bare("none", 0.9), missing(0.05)}, 1);
+  d.unseen = {{"missing_bridges", "fraction", 0.03}};
+  EXPECT_TRUE(
+      verdict_of(d).starts_with("Experiment and simulation agree: no effect is needed that these "
+                                "observations would show, probability 90 %. What to measure next"))
+      << verdict_of(d);
+  EXPECT_FALSE(is_settled(d));
+  EXPECT_TRUE(is_settled(told({bare("none", 0.98), missing(0.01)}, 1)));
+  EXPECT_TRUE(is_settled(told({missing(0.9), bare("none", 0.1)}, 1)));
+  EXPECT_FALSE(is_settled(told({missing(0.9), bare("none", 0.1)}, 2)));
 }
 
 TEST(Verdict, LongSetsAreCutShort) {
