@@ -43,6 +43,11 @@ std::optional<double> number_in(const json& object, const char* key) {
   return found->get<double>();
 }
 
+/// Zero where nothing is said of a sign, infinite where null is.
+double least_told(const json& from, const char* sign) {
+  return from.contains(sign) ? number_in(from, sign).value_or(kNowhere) : 0.0;
+}
+
 Claim claim_of(const json& hypothesis) {
   Claim claim;
   claim.probability = hypothesis.at("probability").get<double>();
@@ -74,8 +79,7 @@ void read_promise(Diagnosed& said, const json& promise) {
   const json effects = promise.value("effects", json::object());  // items() does not keep it alive
   for (const auto& [id, replayed] : effects.items()) {
     if (const auto from = replayed.find("told_from"); from != replayed.end())
-      said.told_from[id] = {number_in(*from, "negative").value_or(kNowhere),
-                            number_in(*from, "positive").value_or(kNowhere)};
+      said.told_from[id] = {least_told(*from, "negative"), least_told(*from, "positive")};
     const json runs = replayed.value("runs", json::array());
     for (const auto& run : runs)
       said.replayed[id].emplace_back(run.at("magnitude").get<double>(), run.at("in_set").get<bool>());

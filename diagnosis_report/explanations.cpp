@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "diagnosis/inference/evidence.h"
-#include "effects/list.h"
 #include "viz/labels.h"
 
 namespace pendular::diagnosis_report {
@@ -32,9 +31,8 @@ std::pair<double, double> told_from(const diagnosis::Diagnosis& diagnosis, const
   const auto& all = diagnosis.promise.correction.told_from;
   const auto from = all.find(id);
   if (from == all.end()) return {kNot, kNot};
-  const effects::Effect& effect = effects::find_effect(id, "diagnosis");
-  return {effect.lowest < 0.0 ? from->second.negative : kNot,
-          effect.highest > 0.0 ? from->second.positive : kNot};
+  const auto learnt = [&](double least) { return least > 0.0 ? least : kNot; };
+  return {learnt(from->second.negative), learnt(from->second.positive)};
 }
 
 bool is_suspect(const diagnosis::Diagnosis& diagnosis, const std::string& effect) {

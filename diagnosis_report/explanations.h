@@ -18,7 +18,7 @@ bool in_ambiguity_set(const diagnosis::Diagnosis& diagnosis, const std::string& 
 bool is_suspect(const diagnosis::Diagnosis& diagnosis, const std::string& effect);
 
 /// |θ| from which on an effect is told from none, below zero and above (Correction::told_from); not a number
-/// where it has no such sign, or nothing was learnt.
+/// where no run of that sign was replayed.
 std::pair<double, double> told_from(const diagnosis::Diagnosis& diagnosis, const std::string& effect);
 
 /// "observation: feature" for figures, the observation's name shortened where it is long.

@@ -97,8 +97,11 @@ viz::ReportSection promise_section(const Diagnosis& d) {
                    {});
   std::string text = fmt::format(
       "{} simulated runs of known truth were diagnosed as if they had been measured, each by a bank without "
-      "its member. The set held the truth in {} of them (asked for: {}), with {} members on average and "
-      "something not in the library among them in {}; 90 % intervals held the magnitude in {}.",
+      "its member. The set held the truth, or none for an effect too small to be told from it, in {} of them "
+      "(asked for: {} of measured experiments, which are missed more often than replayed runs), with {} "
+      "members "
+      "on average and something not in the library among them in {}; 90 % intervals held the magnitude in "
+      "{}.",
       p.cases, percent(p.in_set), percent(p.confidence), rounded(p.set_size), percent(p.false_alarms),
       percent(p.theta_held));
   if (p.outside.cases > 0)
@@ -107,22 +110,20 @@ viz::ReportSection promise_section(const Diagnosis& d) {
         "flagged as "
         "unknown and {} named something else with more than 0.9.",
         p.outside.cases, p.outside.flagged, p.outside.misnamed);
-  std::vector<std::string> hidden;
-  for (const auto& one : d.unseen)
-    hidden.push_back(fmt::format("{} up to {}", diagnosis::name_and_id(one.effect),
-                                 diagnosis::limit_in_words(one.limit, one.unit)));
-  if (!hidden.empty())
-    text += fmt::format(
-        "\nHardly shown by these observations, with the largest magnitude that could hide (95 %): {}.",
-        fmt::join(hidden, "; "));
   auto out = section("What this can promise", text, {});
-  out.tables = {to_report(shown_promise_table(d),
-                          "Replayed runs of each effect: shares told from none, named first, and answered by "
-                          "a right set; magnitudes, below zero and above, from which on half of the runs are "
-                          "told from none, which stands for smaller ones; and the magnitude from which on "
-                          "nine in ten are told (empty: at none of the bank)."),
-                to_report(reliability_table(d),
-                          "How often the most probable explanation of a replayed run was right.")};
+  if (!d.unseen.empty())
+    out.tables.push_back(to_report(
+        shown_unseen_table(d),
+        "Hardly shown by these observations: effects that may be there, and the largest magnitude that could "
+        "hide (95 %)."));
+  out.tables.push_back(
+      to_report(shown_promise_table(d),
+                "Replayed runs of each effect: shares told from none, named first, and answered by "
+                "a right set; magnitudes, below zero and above, from which on half of the runs are "
+                "told from none, which stands for smaller ones; and the magnitude from which on "
+                "nine in ten are told (empty: at none of the bank)."));
+  out.tables.push_back(to_report(reliability_table(d),
+                                 "How often the most probable explanation of a replayed run was right."));
   return out;
 }
 

@@ -92,8 +92,8 @@ void write_report_folder(const fs::path& out, const Diagnosis& d) {
   Files files(out, d);
   const Pictures pictures = keep_figures(d, files);
   for (const Table& table : {gap_table(d), share_table(d), hypothesis_table(d), noise_table(d),
-                             excluded_table(d), promise_table(d), reliability_table(d), next_table(d.next),
-                             next_effects_table(d.next), ledger_table(d)})
+                             excluded_table(d), unseen_table(d), promise_table(d), reliability_table(d),
+                             next_table(d.next), next_effects_table(d.next), ledger_table(d)})
     files.keep(table);
   for (const auto& place : d.places)
     write_polydata(out / (file_name("place_" + place.observation) + ".vtp"), place_polydata(place));

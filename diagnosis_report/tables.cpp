@@ -156,6 +156,21 @@ Table excluded_table(const Diagnosis& d) {
   return table;
 }
 
+Table unseen_table(const Diagnosis& d) {
+  Table table{"unseen", {"effect", "name", "limit_95", "unit"}, {}};
+  for (const auto& one : d.unseen)
+    table.rows.push_back({one.effect, diagnosis::plain_name(one.effect), one.limit, one.unit});
+  return table;
+}
+
+Table shown_unseen_table(const Diagnosis& d) {
+  Table table{"unseen", {"effect", "limit_95"}, {}};
+  for (const auto& one : d.unseen)
+    table.rows.push_back(
+        {diagnosis::name_and_id(one.effect), diagnosis::limit_in_words(one.limit, one.unit)});
+  return table;
+}
+
 Table promise_table(const Diagnosis& d) {
   Table table{"promises",
               {"effect", "name", "replayed_runs", "told_from_none", "named_first", "in_set",

@@ -33,6 +33,12 @@ Table excluded_table(const diagnosis::Diagnosis& diagnosis);
 /// The same for the page.
 Table shown_excluded_table(const diagnosis::Diagnosis& diagnosis);
 
+/// unseen.csv: effects that may be there though nothing shows them, and how large they may be.
+Table unseen_table(const diagnosis::Diagnosis& diagnosis);
+
+/// The same for the page.
+Table shown_unseen_table(const diagnosis::Diagnosis& diagnosis);
+
 /// promises.csv: what replayed runs of known truth show of each effect with these observations.
 Table promise_table(const diagnosis::Diagnosis& diagnosis);
 

@@ -34,6 +34,21 @@ struct State {
   std::string key;
 };
 
+/// What one of the runs comes to.
+struct Outcome {
+  AmbiguitySet set;
+  Question question;
+  std::map<std::string, ToldFrom> told_from;
+
+  /// Whether the set is one explanation, and the right one: the effect or, where so little is not told, none.
+  bool right(const std::string& effect, double theta) const {
+    if (set.ids.size() != 1) return false;
+    const auto from = told_from.find(effect);
+    const bool told = from == told_from.end() || from->second.tells(theta);
+    return set.ids.front() == effect || (!told && set.ids.front() == kNone);
+  }
+};
+
 class Bench {
  public:
   Bench(Experiment curve, const fs::path& store) : curve_(std::move(curve)), bank_(curve_, store) {
@@ -50,8 +65,7 @@ class Bench {
     return found;
   }
 
-  /// The set and the question that one of the runs comes to.
-  std::pair<AmbiguitySet, Question> diagnosed(const State& state, std::size_t run) {
+  Outcome diagnosed(const State& state, std::size_t run) {
     const auto& all = replayed(state);
     const Correction correction = promise_of(all, kConfidence).correction;
     const auto said = corrected(all[run].said, correction);
@@ -66,7 +80,7 @@ class Bench {
       question.effects.insert(h.id);
       question.magnitudes[h.id] = h.magnitudes.front();
     }
-    return {set, question};
+    return {set, question, correction.told_from};
   }
 
   /// The state after the best measurement, or the worst that is ranked; nothing where none is.
@@ -118,7 +132,7 @@ int main(int count, char** words) {
   const std::size_t runs = bench.replayed(start).size();
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < runs; ++k)
-    if (!bench.replayed(start)[k].truth.empty() && bench.diagnosed(start, k).first.ids.size() > 1)
+    if (!bench.replayed(start)[k].truth.empty() && bench.diagnosed(start, k).set.ids.size() > 1)
       open.push_back(k);
   std::cout << fmt::format("{} of {} runs are open after one curve\n", open.size(), runs);
   std::cout << "| advice | runs | set of one | it is right | mean size |\n|---|---|---|---|---|\n";
@@ -127,19 +141,20 @@ int main(int count, char** words) {
     for (std::size_t n = 0; n < std::min(wanted, open.size()); ++n) {
       const std::size_t run = open[n * open.size() / std::min(wanted, open.size())];
       State state = start;
-      auto [set, question] = bench.diagnosed(state, run);
-      for (int step = 0; step < kSteps && set.ids.size() > 1; ++step) {
-        auto after = bench.advised(state, question, best);
+      Outcome outcome = bench.diagnosed(state, run);
+      for (int step = 0; step < kSteps && outcome.set.ids.size() > 1; ++step) {
+        auto after = bench.advised(state, outcome.question, best);
         if (!after || bench.replayed(*after).size() != runs) break;
         state = std::move(*after);
-        std::tie(set, question) = bench.diagnosed(state, run);
+        outcome = bench.diagnosed(state, run);
       }
-      const std::string& truth = bench.replayed(start)[run].truth.begin()->first;
-      taken += 1.0, size += static_cast<double>(set.ids.size());
-      single += set.ids.size() == 1;
-      right += set.ids.size() == 1 && set.ids.front() == truth;
-      std::cerr << fmt::format("{} {}: {} after {}\n", best ? "best" : "worst", truth,
-                               fmt::join(set.ids, " "), state.key);
+      const auto& [truth, theta] = *bench.replayed(start)[run].truth.begin();
+      const auto& set = outcome.set.ids;
+      taken += 1.0, size += static_cast<double>(set.size());
+      single += set.size() == 1;
+      right += outcome.right(truth, theta);
+      std::cerr << fmt::format("{} {}: {} after {}\n", best ? "best" : "worst", truth, fmt::join(set, " "),
+                               state.key);
     }
     std::cout << fmt::format("| {} | {:.0f} | {:.0f} | {:.0f} | {:.2f} |\n", best ? "best" : "worst", taken,
                              single, right, size / taken);

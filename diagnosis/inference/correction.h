@@ -12,7 +12,8 @@ namespace pendular::diagnosis {
 
 inline constexpr const char *kNone = "none", *kUnknown = "unknown";
 
-/// |θ| from which on an effect is told from none, at either sign; infinite where it is at no magnitude.
+/// |θ| from which on an effect is told from none, at either sign: infinite where it is at no magnitude, zero
+/// where nothing was learnt.
 struct ToldFrom {
   double negative = 0.0, positive = 0.0;
 
