@@ -55,14 +55,15 @@ struct Promise {
   Correction correction;
 };
 
-/// From replayed runs with no effect, one, or a pair that was run. `confidence` in (0, 1). Sets are
-/// split-conformal: the least level at which ⌈(n+1) confidence⌉ of n replayed sets hold their truth (Vovk et
-/// al. 2005). At that level it is learnt from which magnitude on half of an effect's runs, of either sign,
-/// are told from none: none stands for smaller ones (stand_in()), and a set that holds none is right for
-/// them; and which pairs are told from none and their effects no more often than slips of 5 % explain
-/// (binomial test at 5 %). The level is then found again. `unknown` is let in by the same rule at a
-/// false-alarm rate of 5 %, half of it for its probability and half for χ² of the best explanation; intervals
-/// of θ likewise at 90 %, those of effects with few runs drawn to what all need; upper limits at 95 %.
+/// From replayed runs with no effect, one, or a pair that was run. `confidence` in (0, 1), of measured sets;
+/// replayed ones miss 0.4 of what those may. Sets are split-conformal: the least level at which ⌈(n+1) share⌉
+/// of n replayed sets hold their truth (Vovk et al. 2005). At that level it is learnt from which magnitude on
+/// half of an effect's runs, of either sign, are told from none: none stands for smaller ones (stand_in()),
+/// and a set that holds none is right for them; and which pairs are told from none and their effects no more
+/// often than slips of 5 % explain (binomial test at 5 %). The level is then found again. `unknown` is let in
+/// by the same rule at a false-alarm rate of 5 %, half of it for its probability and half for χ² of the best
+/// explanation; intervals of θ likewise at 90 %, those of effects with few runs drawn to what all need; upper
+/// limits at 95 %.
 ///
 /// Nothing is learnt from runs whose effect was left out; what becomes of them is counted.
 Promise promise_of(const std::vector<Replayed>& replayed, double confidence);
