@@ -150,8 +150,8 @@ std::string kept_table(const Scores& s) {
              "magnitude from which on the report tells it from none, `none`; at its magnitude, the effect "
              "alone, by replayed runs of the same effect and sign, the nearer in magnitude the heavier. "
              "Upper "
-             "limits are those of "
-             "effects that are there, hidden ones too, and that the report calls hardly shown.\n",
+             "limits are those of effects that are there, hidden ones too, and that the report calls hardly "
+             "shown.\n",
              s.kept.promises);
 }
 

@@ -99,9 +99,8 @@ viz::ReportSection promise_section(const Diagnosis& d) {
       "{} simulated runs of known truth were diagnosed as if they had been measured, each by a bank without "
       "its member. The set held the truth, or none for an effect too small to be told from it, in {} of them "
       "(asked for: {} of measured experiments, which are missed more often than replayed runs), with {} "
-      "members "
-      "on average and something not in the library among them in {}; 90 % intervals held the magnitude in "
-      "{}.",
+      "members on average and something not in the library among them in {}; 90 % intervals held the "
+      "magnitude in {}.",
       p.cases, percent(p.in_set), percent(p.confidence), rounded(p.set_size), percent(p.false_alarms),
       percent(p.theta_held));
   if (p.outside.cases > 0)

@@ -124,6 +124,17 @@ TEST(DiagnosisJson, WhatIsNotFiniteOrNotMadeIsNull) {
   EXPECT_TRUE(quiet["shrinkage"]["controls"]["modulus_retuned"].is_null());
 }
 
+TEST(DiagnosisJson, TellsFromWhichMagnitudeOnEachEffectIsTold) {
+  auto diagnosis = test::planted_diagnosis();
+  for (const char* id : {"bead_friction", "platen_tilt"}) diagnosis.promise.effects[id].cases = 1;
+  diagnosis.promise.correction.told_from = {{"bead_friction", {0.2, INFINITY}}, {"platen_tilt", {0.0, 0.3}}};
+  const json effects = read_back(diagnosis)["promise"]["effects"];
+  EXPECT_EQ(effects["bead_friction"]["told_from"]["negative"], 0.2);
+  EXPECT_TRUE(effects["bead_friction"]["told_from"]["positive"].is_null());  // told at no magnitude
+  EXPECT_FALSE(effects["platen_tilt"]["told_from"].contains("negative"));    // nothing was run there
+  EXPECT_EQ(effects["platen_tilt"]["told_from"]["positive"], 0.3);
+}
+
 TEST(DiagnosisJson, NamesTheBeadsOfAPlace) {
   auto diagnosis = test::planted_diagnosis();
   diagnosis::Place place;
