@@ -53,6 +53,10 @@ ordered_json json_of(const std::vector<ReliabilityBin>& bins) {
   return all;
 }
 
+ordered_json json_of(const Expectation& of) {
+  return {{"expected", json_of(of.expected)}, {"came", json_of(of.came)}};
+}
+
 ordered_json json_of(const Kept& kept) {
   return {{"promises", kept.promises},
           {"promised",
@@ -62,7 +66,7 @@ ordered_json json_of(const Kept& kept) {
             {"false_alarms", json_of(kept.promised_alarms)}}},
           {"set_hit", json_of(kept.in_set)},
           {"at_its_magnitude",
-           {{"promised", json_of(kept.promised_there)}, {"set_hit", json_of(kept.in_set_there)}}},
+           {{"promised", json_of(kept.there.expected)}, {"set_hit", json_of(kept.there.came)}}},
           {"mean_set_size", json_of(kept.set_size)},
           {"false_alarms_of_unknown", json_of(kept.unknown_alarms)},
           {"upper_limits_held", json_of(kept.limits)},
@@ -78,7 +82,11 @@ ordered_json json_of(const Bars& bars) {
           {"pairs_in_set", json_of(bars.pairs_in_set)},
           {"outside_flagged", json_of(bars.flagged)},
           {"outside_confidently_misnamed", json_of(bars.misnamed)},
-          {"magnitude", json_of(bars.magnitude)}};
+          {"magnitude", json_of(bars.magnitude)},
+          {"replayed",
+           {{"in_set", json_of(bars.in_set_there)},
+            {"single_effects_first", json_of(bars.first_there)},
+            {"outside_flagged", json_of(bars.flagged_there)}}}};
 }
 
 ordered_json json_of(const Scores& scores, const Provenance& provenance) {

@@ -23,6 +23,12 @@ std::string words(const Proportion& p) {
                      100.0 * high);
 }
 
+/// "84 %; 7 of 9".
+std::string words(const Expectation& e) {
+  if (e.came.of == 0) return "–";
+  return fmt::format("{}; {} of {}", share_text(e.expected), e.came.hits, e.came.of);
+}
+
 std::string row(const std::string& what, const std::string& found, const std::string& aim) {
   return fmt::format("| {} | {} | {} |\n", what, found, aim);
 }
@@ -44,17 +50,25 @@ std::string bars_table(const Scores& s) {
   line("right answer in the set", "≥ 90 %", "≥ 95 %", [](const Bars& b) { return words(b.naming.in_set); });
   line("the same, or `none` where the report says that less is not told", "", "",
        [](const Bars& b) { return words(b.set_is_right); });
+  line("what replays expect of the name, and what came", "", "",
+       [](const Bars& b) { return words(b.in_set_there); });
   line("mean size of the set", "≤ 2.5", "≤ 1.6", [](const Bars& b) { return number(b.naming.set_size); });
   line("most probable is right, single effects", "≥ 65 %", "≥ 85 %",
        [](const Bars& b) { return words(b.single_first); });
+  line("what replays expect, and what came", "", "", [](const Bars& b) { return words(b.first_there); });
   line("pairs in the set", "≥ 60 %", "≥ 80 %", [](const Bars& b) { return words(b.pairs_in_set); });
   line("outside mechanisms flagged", "≥ 85 %", "≥ 95 %", [](const Bars& b) { return words(b.flagged); });
+  line("what replays expect, and what came", "", "", [](const Bars& b) { return words(b.flagged_there); });
   line("outside mechanisms misnamed above 0.9", "≤ 2 %", "≤ 1 %",
        [](const Bars& b) { return words(b.misnamed); });
   line("θ within its 90 % interval", "86–94 %", "86–94 %",
        [](const Bars& b) { return words(b.magnitude.covered); });
   line("median relative error of θ", "≤ 15 %", "≤ 8 %",
        [](const Bars& b) { return share_text(b.magnitude.median_relative_error); });
+  text +=
+      "\nReplays expect, of the same observations: with nothing or one effect of that sign and nearly that "
+      "magnitude withheld, how often its name is in the set, and how often it is first; with an effect that "
+      "was left out of the library, how often `unknown` is in the set.\n";
   text += fmt::format(
       "\nEffects too small to be seen, which count nowhere else: `none` or the effect in the set {}; "
       "something else above 0.9 {}.\n",
@@ -137,7 +151,7 @@ std::string kept_table(const Scores& s) {
       "|---|---|---|---|---|---|---|---|---|---|---|\n";
   text += stratum_rows(s.kept_by_stratum, s.kept, [](const Kept& k, const Stratum*) {
     return fmt::format("{} | {} | {} | {} | {} | {} | {} | {} | {} | {}", share_text(k.promised_in_set),
-                       words(k.in_set), share_text(k.promised_there), words(k.in_set_there),
+                       words(k.in_set), share_text(k.there.expected), words(k.there.came),
                        number(k.promised_size), number(k.set_size), words(k.unknown_alarms),
                        words(k.magnitude.covered), words(k.limits), words(k.confidently_wrong));
   });

@@ -146,9 +146,32 @@ Proportion limits_held(const std::vector<Verdict>& verdicts) {
   return held;
 }
 
+bool in_its_set(const Verdict& verdict) {
+  return verdict.in_set(verdict.answer);
+}
+bool is_flagged(const Verdict& verdict) {
+  return verdict.in_set("unknown") || verdict.exact();
+}
+
+/// Of the verdicts whose replay says so.
+template <typename Came>
+Expectation expectation(const std::vector<Verdict>& verdicts,
+                        std::optional<double> (Verdict::*expected)() const, const Came& came) {
+  Expectation found;
+  std::vector<double> shares;
+  for (const auto& verdict : verdicts)
+    if (const auto share = (verdict.*expected)()) {
+      shares.push_back(*share);
+      found.came.count(came(verdict));
+    }
+  found.expected = mean(shares);
+  return found;
+}
+
 Kept kept(const std::vector<Verdict>& verdicts) {
   Kept kept;
-  std::vector<double> in_set, size, theta, alarms, sizes, there;
+  std::vector<double> in_set, size, theta, alarms, sizes;
+  std::vector<Verdict> promising;
   for (const auto& verdict : verdicts) {
     kept.confidently_wrong.count(verdict.confidently_wrong());
     if (!verdict.said) continue;
@@ -158,15 +181,12 @@ Kept kept(const std::vector<Verdict>& verdicts) {
     in_set.push_back(promised->in_set), size.push_back(promised->set_size);
     theta.push_back(promised->theta_held), alarms.push_back(promised->false_alarms);
     kept.in_set.count(verdict.set_is_right());
-    if (const auto at = verdict.promised_in_set()) {
-      there.push_back(*at);
-      kept.in_set_there.count(verdict.in_set(verdict.answer));
-    }
+    promising.push_back(verdict);
     sizes.push_back(static_cast<double>(verdict.said->set.size()));
   }
   kept.promises = in_set.size(), kept.set_size = mean(sizes);
   kept.promised_in_set = mean(in_set), kept.promised_size = mean(size);
-  kept.promised_there = mean(there);
+  kept.there = expectation(promising, &Verdict::promised_in_set, in_its_set);
   kept.promised_theta = mean(theta), kept.promised_alarms = mean(alarms);
   kept.magnitude = magnitudes(verdicts);
   kept.reliability = reliability(verdicts);
@@ -181,10 +201,13 @@ Bars bars(const std::vector<Verdict>& verdicts) {
     if (verdict.truth.effects.size() == 1) bars.single_first.count(verdict.exact());
     if (verdict.truth.effects.size() == 2) bars.pairs_in_set.count(verdict.in_set(verdict.answer));
     if (verdict.truth.mechanism.empty()) continue;
-    bars.flagged.count(verdict.in_set("unknown") || verdict.exact());
+    bars.flagged.count(is_flagged(verdict));
     bars.misnamed.count(verdict.confidently_wrong());
   }
   bars.magnitude = magnitudes(verdicts);
+  bars.in_set_there = expectation(those(verdicts, is_replayed), &Verdict::promised_in_set, in_its_set);
+  bars.first_there = expectation(verdicts, &Verdict::promised_first, [](const auto& v) { return v.exact(); });
+  bars.flagged_there = expectation(verdicts, &Verdict::promised_flagged, is_flagged);
   return bars;
 }
 
@@ -203,7 +226,7 @@ void score_unknown(Scores& scores, const std::vector<Verdict>& verdicts) {
     const bool right = verdict.answer == "unknown";
     (right ? outside : inside).push_back(verdict.probability("unknown"));
     if (!right) continue;
-    scores.flagged.count(verdict.in_set("unknown") || verdict.exact());
+    scores.flagged.count(is_flagged(verdict));
     scores.misnamed.count(verdict.confidently_wrong());
   }
   scores.auroc_unknown = area_under_curve(outside, inside);

@@ -48,14 +48,18 @@ struct ShrinkageScore {
   Proportion reached;
 };
 
+/// What replays expect of cases that they stand for, in the mean, and what came of these.
+struct Expectation {
+  double expected = 0.0;
+  Proportion came;
+};
+
 /// What diagnoses promise beside what came of it, for all cases or for one stratum.
 struct Kept {
   /// Cases that the replay stands for: nothing or one effect withheld, and a promise. Means of what it said.
   std::size_t promises = 0;
   double promised_in_set = 0.0, promised_size = 0.0, promised_theta = 0.0, promised_alarms = 0.0;
-  /// Of those whose magnitude was replayed (Verdict::promised_in_set): mean, and what came.
-  double promised_there = 0.0;
-  Proportion in_set_there;
+  Expectation there;          ///< of those whose magnitude was replayed: Verdict::promised_in_set()
   Proportion in_set;          ///< of the same cases: Verdict::set_is_right()
   double set_size = 0.0;      ///< likewise
   Proportion unknown_alarms;  ///< right answer not `unknown`, and it is in the set
@@ -75,6 +79,8 @@ struct Bars {
   Proportion flagged;        ///< outside mechanisms: `unknown` is in the set or first
   Proportion misnamed;       ///< outside mechanisms: something else above 0.9
   MagnitudeScore magnitude;  ///< of single effects
+  /// By replays of the same observations: Verdict::promised_in_set(), promised_first(), promised_flagged().
+  Expectation in_set_there, first_there, flagged_there;
 };
 
 /// Cases whose effect is too small to be seen, which count nowhere else.

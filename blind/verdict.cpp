@@ -43,6 +43,12 @@ std::optional<double> number_in(const json& object, const char* key) {
   return found->get<double>();
 }
 
+std::optional<bool> flag_in(const json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_boolean()) return std::nullopt;
+  return found->get<bool>();
+}
+
 /// Zero where nothing is said of a sign, infinite where null is.
 double least_told(const json& from, const char* sign) {
   return from.contains(sign) ? number_in(from, sign).value_or(kNowhere) : 0.0;
@@ -76,13 +82,16 @@ void read_promise(Diagnosed& said, const json& promise) {
   if (in_set && size && theta && alarms) said.promised = {*in_set, *size, *theta, *alarms};
   if (const json none = promise.value("none", json::object()); none.value("cases", 0) > 0)
     said.promised_of_none = none.at("in_set").get<double>() / none.at("cases").get<double>();
+  if (const json outside = promise.value("outside", json::object()); outside.value("cases", 0) > 0)
+    said.promised_flagged = outside.at("flagged").get<double>() / outside.at("cases").get<double>();
   const json effects = promise.value("effects", json::object());  // items() does not keep it alive
   for (const auto& [id, replayed] : effects.items()) {
     if (const auto from = replayed.find("told_from"); from != replayed.end())
       said.told_from[id] = {least_told(*from, "negative"), least_told(*from, "positive")};
     const json runs = replayed.value("runs", json::array());
     for (const auto& run : runs)
-      said.replayed[id].emplace_back(run.at("magnitude").get<double>(), run.at("in_set").get<bool>());
+      said.replayed[id].push_back(
+          {run.at("magnitude").get<double>(), flag_in(run, "in_set"), flag_in(run, "first")});
   }
 }
 
@@ -94,6 +103,23 @@ void read_separation(Diagnosed& said, const json& separation) {
     for (std::size_t b = 0; b <= effects.size(); ++b)
       if (const json& value = rows.at(a).at(b); value.is_number() && a != b)
         said.squared_distance[effects[a]][b < effects.size() ? effects[b] : "none"] = value.get<double>();
+}
+
+/// Share of the replayed runs of a case's one effect, the nearer in magnitude the heavier.
+std::optional<double> share_near(const Verdict& verdict, std::optional<bool> Diagnosed::Run::*what) {
+  if (!verdict.said || verdict.truth.effects.size() != 1) return std::nullopt;
+  const auto& [id, theta] = verdict.truth.effects.front();
+  const auto found = verdict.said->replayed.find(id);
+  if (found == verdict.said->replayed.end()) return std::nullopt;
+  double weights = 0.0, share = 0.0;
+  for (const auto& run : found->second) {
+    if (run.magnitude * theta <= 0.0 || !(run.*what)) continue;
+    const double apart = std::log(run.magnitude / theta) / kNearly;
+    const double weight = std::exp(-0.5 * apart * apart);
+    weights += weight, share += *(run.*what) ? weight : 0.0;
+  }
+  if (weights < kLeastWeight) return std::nullopt;
+  return share / weights;
 }
 
 std::optional<double> read_oracle(const fs::path& path) {
@@ -121,20 +147,17 @@ std::string in_order(const std::string& id) {
 }
 
 std::optional<double> Verdict::promised_in_set() const {
-  if (!said || truth.effects.size() > 1) return std::nullopt;
-  if (truth.effects.empty()) return said->promised_of_none;
-  const auto& [id, theta] = *truth.effects.begin();
-  const auto found = said->replayed.find(id);
-  if (found == said->replayed.end()) return std::nullopt;
-  double weights = 0.0, right = 0.0;
-  for (const auto& [magnitude, in_set] : found->second) {
-    if (magnitude * theta <= 0.0) continue;
-    const double apart = std::log(magnitude / theta) / kNearly;
-    const double weight = std::exp(-0.5 * apart * apart);
-    weights += weight, right += in_set ? weight : 0.0;
-  }
-  if (weights < kLeastWeight) return std::nullopt;
-  return right / weights;
+  if (said && truth.effects.empty()) return said->promised_of_none;
+  return share_near(*this, &Diagnosed::Run::in_set);
+}
+
+std::optional<double> Verdict::promised_first() const {
+  return share_near(*this, &Diagnosed::Run::first);
+}
+
+std::optional<double> Verdict::promised_flagged() const {
+  if (!said || truth.mechanism.empty()) return std::nullopt;
+  return said->promised_flagged;
 }
 
 std::string Verdict::top() const {

@@ -46,8 +46,14 @@ struct Diagnosed {
   std::optional<std::string> nearest_signature;
   std::optional<Promised> promised;
   std::optional<double> promised_of_none;  ///< share of replayed runs without an effect whose set is right
-  /// Of each effect, its replayed runs: magnitude, and whether the set is right.
-  std::map<std::string, std::vector<std::pair<double, bool>>> replayed;
+  std::optional<double> promised_flagged;  ///< of runs whose effect was left out of the library
+  /// A replayed run of one effect: whether the set holds it, and whether it is the most probable (reports of
+  /// earlier versions do not say that).
+  struct Run {
+    double magnitude;
+    std::optional<bool> in_set, first;
+  };
+  std::map<std::string, std::vector<Run>> replayed;  ///< by effect
   std::map<std::string, double> limits;  ///< upper limits of |θ| of effects that are hardly shown
   /// Of each effect, |θ| from which on the replay tells it from none, below zero and above.
   std::map<std::string, std::pair<double, double>> told_from;
@@ -71,9 +77,13 @@ struct Verdict {
   bool untold(const std::string& effect, double theta) const;
   /// What a replay promises of a set: that it holds the answer, or none where the one true effect is untold.
   bool set_is_right() const;
-  /// How often, by the replay, a set is right where the truth is what it is: nothing, or one effect of nearly
-  /// its magnitude and of its sign. Nothing where no such run was replayed.
+  /// How often, by the replay, the answer is in the set where the truth is what it is: nothing, or one effect
+  /// of nearly its magnitude and of its sign. Nothing where no such run was replayed.
   std::optional<double> promised_in_set() const;
+  /// How often, by the same runs, one effect is the most probable.
+  std::optional<double> promised_first() const;
+  /// How often, by the replay, a mechanism outside the library is flagged; nothing where the truth is none.
+  std::optional<double> promised_flagged() const;
   bool exact() const { return said && top() == answer; }
   bool confidently_wrong() const { return said && !exact() && probability(top()) > 0.9; }
 };

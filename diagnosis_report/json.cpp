@@ -165,8 +165,10 @@ ordered_json promise_of(const Diagnosis& d) {
   for (const auto& [id, effect] : p.effects) {
     ordered_json runs = ordered_json::array();
     for (const auto& run : effect.runs)
-      runs.push_back(
-          {{"magnitude", number(run.theta)}, {"told_from_none", run.told_from_none}, {"in_set", run.in_set}});
+      runs.push_back({{"magnitude", number(run.theta)},
+                      {"told_from_none", run.told_from_none},
+                      {"in_set", run.in_set},
+                      {"first", run.first}});
     effects[id] = {
         {"cases", effect.cases},   {"told_from_none", effect.told_from_none}, {"first", effect.first},
         {"in_set", effect.in_set}, {"seen_from", number(effect.seen_from())}, {"runs", runs}};

@@ -285,7 +285,8 @@ void count(const Replayed& one, const Correction& correction, Promise& promise,
   effect.first += said.front().id == truth;
   effect.in_set += right(set, one, correction);
   if (one.truth.size() == 1)
-    effect.runs.push_back({one.truth.begin()->second, !holds(set, kNone), holds(set, truth)});
+    effect.runs.push_back(
+        {one.truth.begin()->second, !holds(set, kNone), holds(set, truth), said.front().id == truth});
   if (one.truth.empty()) return;
   const Hypothesis* named = said_of(said, truth);
   if (!named || one.truth.size() > 1) return;

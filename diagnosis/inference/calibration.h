@@ -15,10 +15,11 @@ struct Reliability {
   std::size_t cases = 0;
 };
 
-/// A replayed run of one effect: its magnitude, whether its set was without none, and held the effect.
+/// A replayed run of one effect: its magnitude, whether its set was without none, held the effect, and
+/// whether this was the most probable.
 struct ReplayedMagnitude {
   double theta = 0.0;
-  bool told_from_none = false, in_set = false;
+  bool told_from_none = false, in_set = false, first = false;
 };
 
 /// What the replay says of an explanation: how many of its runs were told from none, named first, and

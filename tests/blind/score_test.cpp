@@ -236,7 +236,7 @@ TEST_F(Score, PromisesAtAMagnitudeAreOfReplayedRunsNearIt) {
   // A run at such a magnitude counts half as much as one at θ itself.
   const double half = 0.1 * std::exp(0.35 * std::sqrt(2.0 * std::log(2.0)));
   const auto run = [](double magnitude, bool in_set) {
-    return json{{"magnitude", magnitude}, {"told_from_none", in_set}, {"in_set", in_set}};
+    return json{{"magnitude", magnitude}, {"told_from_none", in_set}, {"in_set", in_set}, {"first", !in_set}};
   };
   json promise = {{"in_set", 0.95}, {"set_size", 2.0}, {"theta_held", 0.9}, {"false_alarms", 0.05}};
   promise["none"] = {{"cases", 10}, {"in_set", 9}};
@@ -244,18 +244,33 @@ TEST_F(Score, PromisesAtAMagnitudeAreOfReplayedRunsNearIt) {
       {"cases", 3}, {"told_from_none", 1}, {"runs", {run(0.1, true), run(half, false), run(-0.1, false)}}};
   promise["effects"]["bead_friction"] = {
       {"cases", 1}, {"told_from_none", 1}, {"runs", {run(2.0, true)}}};  // ten times as much as is there
-  for (const char* name : {"c1", "c2", "c4"}) add_to_report(reports / name, {{"promise", promise}});
+  promise["outside"] = {{"cases", 5}, {"flagged", 4}};
+  for (const char* name : {"c1", "c2", "c4", "c5"}) add_to_report(reports / name, {{"promise", promise}});
   const auto all = verdicts(open_seals(folder / "split"), reports);
   EXPECT_NEAR(all[0].promised_in_set().value(), 2.0 / 3.0, 1e-9);
   EXPECT_FALSE(all[1].promised_in_set());
   EXPECT_FALSE(all[2].promised_in_set());  // its report has no promise
   EXPECT_DOUBLE_EQ(all[3].promised_in_set().value(), 0.9);
   EXPECT_FALSE(all[6].promised_in_set());  // a pair without a report
+  EXPECT_NEAR(all[0].promised_first().value(), 1.0 / 3.0, 1e-9);
+  EXPECT_FALSE(all[3].promised_first());  // no effect
+  EXPECT_DOUBLE_EQ(all[4].promised_flagged().value(), 0.8);
+  EXPECT_FALSE(all[0].promised_flagged());
   const Scores s = score(all, false);
-  EXPECT_NEAR(s.kept.promised_there, 0.5 * (2.0 / 3.0 + 0.9), 1e-9);
-  EXPECT_EQ(s.kept.in_set_there.of, 2u);
-  EXPECT_EQ(s.kept.in_set_there.hits, 1u);  // c1's
-  EXPECT_EQ(s.kept_by_stratum.at(Stratum::none).in_set_there.hits, 0u);
+  EXPECT_NEAR(s.kept.there.expected, 0.5 * (2.0 / 3.0 + 0.9), 1e-9);
+  EXPECT_EQ(s.kept.there.came.of, 2u);
+  EXPECT_EQ(s.kept.there.came.hits, 1u);  // c1's
+  EXPECT_EQ(s.kept_by_stratum.at(Stratum::none).there.came.hits, 0u);
+  std::size_t sets = 0, firsts = 0, outside = 0;
+  for (const Bars& bars : s.by_observed) {
+    sets += bars.in_set_there.came.of, firsts += bars.first_there.came.of;
+    if (bars.flagged_there.came.of == 0) continue;
+    outside += bars.flagged_there.came.hits;
+    EXPECT_DOUBLE_EQ(bars.flagged_there.expected, 0.8);
+  }
+  EXPECT_EQ(sets, 2u);
+  EXPECT_EQ(firsts, 1u);
+  EXPECT_EQ(outside, 1u);
 }
 
 TEST_F(Score, SetsWhatCameBesideWhatWasPromised) {
