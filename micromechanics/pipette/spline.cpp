@@ -10,22 +10,39 @@ namespace {
 const double kPole = std::sqrt(3.0) - 2.0;
 constexpr int kReach = 32;  // kPole^32 is below 1e-18
 
+int reflect(int k, int size) {
+  if (size == 1) return 0;
+  const int period = 2 * (size - 1);
+  k = ((k % period) + period) % period;
+  return k < size ? k : period - k;
+}
+
+/// Lines of so many numbers, `stride` apart, that stand side by side: columns of a picture or, with one line,
+/// a row of it. Loops are over all lines at each place, so that columns are read as they lie in memory.
+struct SideLines {
+  double* first;
+  int size, stride, lines;
+
+  double* at(int k) const { return first + static_cast<std::ptrdiff_t>(k) * stride; }
+};
+
 /// In place: samples to cubic B-spline coefficients, mirrored without repeating the end samples.
-void filter(double* c, int size, int stride) {
+void filter(const SideLines& c) {
+  const int size = c.size;
   if (size == 1) return;
-  const auto at = [&](int k) -> double& { return c[static_cast<std::ptrdiff_t>(k) * stride]; };
-  const auto mirrored = [&](int k) {
-    const int period = 2 * (size - 1);
-    k %= period;
-    return k < size ? k : period - k;
-  };
-  for (int k = 0; k < size; ++k) at(k) *= 6.0;
-  double sum = 0.0, power = 1.0;
-  for (int k = 0; k < kReach; ++k, power *= kPole) sum += power * at(mirrored(k));
-  at(0) = sum;
-  for (int k = 1; k < size; ++k) at(k) += kPole * at(k - 1);
-  at(size - 1) = kPole / (kPole * kPole - 1.0) * (at(size - 1) + kPole * at(size - 2));
-  for (int k = size - 2; k >= 0; --k) at(k) = kPole * (at(k + 1) - at(k));
+  for (int k = 0; k < size; ++k)
+    for (int l = 0; l < c.lines; ++l) c.at(k)[l] *= 6.0;
+  std::vector<double> sums(static_cast<std::size_t>(c.lines), 0.0);
+  double power = 1.0;
+  for (int k = 0; k < kReach; ++k, power *= kPole)
+    for (int l = 0; l < c.lines; ++l) sums[static_cast<std::size_t>(l)] += power * c.at(reflect(k, size))[l];
+  std::copy(sums.begin(), sums.end(), c.at(0));
+  for (int k = 1; k < size; ++k)
+    for (int l = 0; l < c.lines; ++l) c.at(k)[l] += kPole * c.at(k - 1)[l];
+  for (int l = 0; l < c.lines; ++l)
+    c.at(size - 1)[l] = kPole / (kPole * kPole - 1.0) * (c.at(size - 1)[l] + kPole * c.at(size - 2)[l]);
+  for (int k = size - 2; k >= 0; --k)
+    for (int l = 0; l < c.lines; ++l) c.at(k)[l] = kPole * (c.at(k + 1)[l] - c.at(k)[l]);
 }
 
 struct Weights {
@@ -38,13 +55,6 @@ Weights weights(double t) {
   return {{u * u * u / 6.0, 2.0 / 3.0 - t * t * (1.0 - 0.5 * t), 2.0 / 3.0 - u * u * (1.0 - 0.5 * u),
            t * t * t / 6.0},
           {-0.5 * u * u, t * (1.5 * t - 2.0), u * (2.0 - 1.5 * u), 0.5 * t * t}};
-}
-
-int reflect(int k, int size) {
-  if (size == 1) return 0;
-  const int period = 2 * (size - 1);
-  k = ((k % period) + period) % period;
-  return k < size ? k : period - k;
 }
 
 /// Half of a Gaussian kernel, from its middle outwards; the whole sums to one.
@@ -60,17 +70,20 @@ std::vector<double> gaussian(double sigma) {
 }
 
 /// In place, mirrored at the ends.
-void smooth(double* values, int size, int stride, const std::vector<double>& kernel) {
-  const int reach = static_cast<int>(kernel.size()) - 1;
-  std::vector<double> padded(static_cast<std::size_t>(size + 2 * reach));
-  for (int k = -reach; k < size + reach; ++k)
-    padded[static_cast<std::size_t>(k + reach)] =
-        values[static_cast<std::ptrdiff_t>(reflect(k, size)) * stride];
-  for (int k = 0; k < size; ++k) {
-    const double* middle = &padded[static_cast<std::size_t>(k + reach)];
-    double sum = kernel[0] * middle[0];
-    for (int j = 1; j <= reach; ++j) sum += kernel[static_cast<std::size_t>(j)] * (middle[j] + middle[-j]);
-    values[static_cast<std::ptrdiff_t>(k) * stride] = sum;
+void smooth(const SideLines& values, const std::vector<double>& kernel) {
+  const int reach = static_cast<int>(kernel.size()) - 1, lines = values.lines;
+  std::vector<double> padded;
+  for (int k = -reach; k < values.size + reach; ++k) {
+    const double* from = values.at(reflect(k, values.size));
+    padded.insert(padded.end(), from, from + lines);
+  }
+  for (int k = 0; k < values.size; ++k) {
+    const double* middle = &padded[static_cast<std::size_t>((k + reach) * lines)];
+    double* to = values.at(k);
+    for (int l = 0; l < lines; ++l) to[l] = kernel[0] * middle[l];
+    for (int j = 1; j <= reach; ++j)
+      for (int l = 0; l < lines; ++l)
+        to[l] += kernel[static_cast<std::size_t>(j)] * (middle[l + j * lines] + middle[l - j * lines]);
   }
 }
 
@@ -85,15 +98,17 @@ SplineWindow::SplineWindow(const GreyImage& image, const Region& window, double 
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x)
       coefficients_[static_cast<std::size_t>(y * width_ + x)] = image.at(x0_ + x, y0_ + y);
+  const auto row = [&](int y) {
+    return SideLines{&coefficients_[static_cast<std::size_t>(y * width_)], width_, 1, 1};
+  };
+  const SideLines columns = {coefficients_.data(), height_, width_, width_};
   if (smoothing > 0.0) {
     const std::vector<double> kernel = gaussian(smoothing);
-    for (int y = 0; y < height_; ++y)
-      smooth(&coefficients_[static_cast<std::size_t>(y * width_)], width_, 1, kernel);
-    for (int x = 0; x < width_; ++x)
-      smooth(&coefficients_[static_cast<std::size_t>(x)], height_, width_, kernel);
+    for (int y = 0; y < height_; ++y) smooth(row(y), kernel);
+    smooth(columns, kernel);
   }
-  for (int y = 0; y < height_; ++y) filter(&coefficients_[static_cast<std::size_t>(y * width_)], width_, 1);
-  for (int x = 0; x < width_; ++x) filter(&coefficients_[static_cast<std::size_t>(x)], height_, width_);
+  for (int y = 0; y < height_; ++y) filter(row(y));
+  filter(columns);
 }
 
 double SplineWindow::coefficient(int x, int y) const {
