@@ -67,6 +67,17 @@ TEST(DistanceMap, IsExact) {
     }
 }
 
+/// Bodies so large that lines are looked along by envelopes, beside small ones.
+TEST(DistanceMap, IsExactInLargeBodies) {
+  for (const std::array<std::size_t, 3>& size :
+       {std::array<std::size_t, 3>{3, 700, 5}, {5, 3, 700}, {2, 400, 300}, {21, 400, 2}}) {
+    Grid<std::uint8_t> mask{size, 1.0, std::vector<std::uint8_t>(size[0] * size[1] * size[2], 1)};
+    for (std::uint64_t hole = 0; hole < 12; ++hole)  // one half has none
+      mask.values[random_bits(11, hole) % (mask.values.size() / 2)] = 0;
+    EXPECT_EQ(distance_inside(mask).values, by_definition(mask)) << size[0] << " " << size[1];
+  }
+}
+
 TEST(DistanceMap, OfAMaskWithoutASurfaceIsEndless) {
   const Grid<std::uint8_t> full{{20, 5, 4}, 1.0, std::vector<std::uint8_t>(400, 1)},
       none{{20, 5, 4}, 1.0, std::vector<std::uint8_t>(400, 0)};
