@@ -16,8 +16,8 @@ namespace {
 constexpr int kSide = 84;
 constexpr Region kBox{14, 14, 56, 56};
 
-/// A dark bead with speckles, drawn at an exact shift, with noise of `sd` of full scale.
-GreyImage bead(const Point& shift, double sd, std::uint64_t seed) {
+/// A dark bead with speckles, drawn at an exact shift.
+GreyImage drawn(const Point& shift) {
   GreyImage image(kSide, kSide);
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x) {
@@ -33,11 +33,20 @@ GreyImage bead(const Point& shift, double sd, std::uint64_t seed) {
         image.at(x, y) +=
             (k % 2 ? 0.14 : -0.14) * std::exp(-0.5 * (Point(x, y) - at).squaredNorm() / (size * size));
   }
+  return image;
+}
+
+/// With noise of `sd` of full scale, in steps of the camera.
+GreyImage exposed(GreyImage image, double sd, std::uint64_t seed) {
   for (std::size_t k = 0; k < image.values.size(); ++k) {
     image.values[k] += sd * random_normal(seed, k);
     image.values[k] = std::round(255.0 * image.values[k]) / 255.0;
   }
   return image;
+}
+
+GreyImage bead(const Point& shift, double sd, std::uint64_t seed) {
+  return exposed(drawn(shift), sd, seed);
 }
 
 TEST(Spline, PassesThroughPixelsAndReproducesAParabola) {
@@ -73,10 +82,11 @@ double least_noise(double sd) {
 /// Against the true shift, over `repeats` pairs of a template and a frame, each with its own noise.
 Error error_at(double fraction, double sd, int repeats) {
   const Point shift(3.0 + fraction, -2.0 + fraction);
+  const GreyImage before = drawn({0.0, 0.0}), after = drawn(shift);
   std::vector<Point> errors(static_cast<std::size_t>(repeats));
   for_blocks(errors.size(), 1, [&](std::size_t k, std::size_t) {
-    const Template wanted = make_template(bead({0.0, 0.0}, sd, 10000 + k), kBox);
-    errors[k] = match(wanted, bead(shift, sd, 100 + k), {2.0, -1.0}, 6).displacement - shift;
+    const Template wanted = make_template(exposed(before, sd, 10000 + k), kBox);
+    errors[k] = match(wanted, exposed(after, sd, 100 + k), {2.0, -1.0}, 6).displacement - shift;
   });
   Point mean = Point::Zero(), squares = Point::Zero();
   for (const Point& e : errors) mean += e / repeats;
