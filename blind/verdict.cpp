@@ -105,20 +105,23 @@ void read_separation(Diagnosed& said, const json& separation) {
         said.squared_distance[effects[a]][b < effects.size() ? effects[b] : "none"] = value.get<double>();
 }
 
-/// Share of the replayed runs of a case's one effect, the nearer in magnitude the heavier.
+/// Share of the replayed runs of a case's one effect, the nearer in magnitude the heavier. Nothing where all
+/// are larger: less is harder to tell.
 std::optional<double> share_near(const Verdict& verdict, std::optional<bool> Diagnosed::Run::*what) {
   if (!verdict.said || verdict.truth.effects.size() != 1) return std::nullopt;
   const auto& [id, theta] = verdict.truth.effects.front();
   const auto found = verdict.said->replayed.find(id);
   if (found == verdict.said->replayed.end()) return std::nullopt;
   double weights = 0.0, share = 0.0;
+  bool as_small = false;
   for (const auto& run : found->second) {
     if (run.magnitude * theta <= 0.0 || !(run.*what)) continue;
+    as_small |= std::fabs(run.magnitude) <= (1.0 + 1e-9) * std::fabs(theta);
     const double apart = std::log(run.magnitude / theta) / kNearly;
     const double weight = std::exp(-0.5 * apart * apart);
     weights += weight, share += *(run.*what) ? weight : 0.0;
   }
-  if (weights < kLeastWeight) return std::nullopt;
+  if (!as_small || weights < kLeastWeight) return std::nullopt;
   return share / weights;
 }
 

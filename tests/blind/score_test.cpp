@@ -243,7 +243,7 @@ TEST_F(Score, PromisesAtAMagnitudeAreOfReplayedRunsNearIt) {
   promise["effects"]["missing_bridges"] = {
       {"cases", 3}, {"told_from_none", 1}, {"runs", {run(0.1, true), run(half, false), run(-0.1, false)}}};
   promise["effects"]["bead_friction"] = {
-      {"cases", 1}, {"told_from_none", 1}, {"runs", {run(2.0, true)}}};  // ten times as much as is there
+      {"cases", 1}, {"told_from_none", 1}, {"runs", {run(0.3, true)}}};  // half as much again as is there
   promise["outside"] = {{"cases", 5}, {"flagged", 4}};
   for (const char* name : {"c1", "c2", "c4", "c5"}) add_to_report(reports / name, {{"promise", promise}});
   const auto all = verdicts(open_seals(folder / "split"), reports);
