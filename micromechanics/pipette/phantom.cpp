@@ -93,11 +93,11 @@ class Painter {
           bell.values.push_back(std::exp(-0.5 * (at - middle) * (at - middle) / (blurred * blurred)));
         return bell;
       };
-      const Bell across = along(spot.x(), image_.width), down_it = along(spot.y(), image_.height);
-      for (std::size_t y = 0; y < down_it.values.size(); ++y)
-        for (std::size_t x = 0; x < across.values.size(); ++x)
-          image_.at(across.first + static_cast<int>(x), down_it.first + static_cast<int>(y)) +=
-              height * down_it.values[y] * across.values[x];
+      const Bell in_x = along(spot.x(), image_.width), in_y = along(spot.y(), image_.height);
+      for (std::size_t y = 0; y < in_y.values.size(); ++y)
+        for (std::size_t x = 0; x < in_x.values.size(); ++x)
+          image_.at(in_x.first + static_cast<int>(x), in_y.first + static_cast<int>(y)) +=
+              height * in_y.values[y] * in_x.values[x];
     }
   }
 

@@ -73,6 +73,7 @@ std::vector<double> gaussian(double sigma) {
 void smooth(const SideLines& values, const std::vector<double>& kernel) {
   const int reach = static_cast<int>(kernel.size()) - 1, lines = values.lines;
   std::vector<double> padded;
+  padded.reserve(static_cast<std::size_t>(values.size + 2 * reach) * static_cast<std::size_t>(lines));
   for (int k = -reach; k < values.size + reach; ++k) {
     const double* from = values.at(reflect(k, values.size));
     padded.insert(padded.end(), from, from + lines);
