@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <tuple>
 #include <unordered_map>
@@ -102,6 +103,10 @@ std::vector<Summit> summits_between(const Grid<std::uint8_t>& mask, std::size_t 
         greatest_within(distance, core) > static_cast<float>(margin - 2))
       continue;
     auto found = summits(distance, core, least);
+    // Where no surface is, or none that the map knows to be the nearest, is no bead.
+    constexpr float endless = std::numeric_limits<float>::max();
+    const float known = whole ? endless : static_cast<float>(margin - 2);
+    std::erase_if(found, [&](const Summit& one) { return one.distance > known || one.distance == endless; });
     for (Summit& summit : found)
       summit.node = mask.index(box.low[0] + summit.node % distance.size[0],
                                box.low[1] + summit.node / distance.size[0] % distance.size[1],

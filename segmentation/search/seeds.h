@@ -13,8 +13,8 @@ struct Seed {
 };
 
 /// Bodies of the mask: maxima of its distance map from the highest down, except those that lie within
-/// another's ball or at its neck (nearer than its radius plus half their own). Seeds smaller than
-/// `least_radius` voxels are left out.
+/// another's ball or at its neck (nearer than its radius plus half their own). Left out are those smaller
+/// than `least_radius` voxels, and what of a body is 158 nodes and more from its surface, or has none.
 std::vector<Seed> find_seeds(const Grid<std::uint8_t>& mask, double least_radius);
 
 /// The radius that halves the total volume of the seeds' balls: what most of the material is made of.

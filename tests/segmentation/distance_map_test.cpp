@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/random.h"
+#include "segmentation/search/seeds.h"
 
 namespace pendular::segmentation {
 namespace {
@@ -99,6 +100,18 @@ TEST(DistanceMap, OfALongLineEndsWhereItSays) {
     for (const std::size_t n : {kFarthest + 2, length - 1})
       EXPECT_EQ(found.values[n], std::numeric_limits<float>::max()) << axis;
   }
+}
+
+// A blank half of a scan: most of it is farther from any surface than is looked at.
+TEST(Seeds, NoneIsLargerThanTheBodyThatItIsIn) {
+  Grid<std::uint8_t> blank{{8, 8, 700}, 1.0, std::vector<std::uint8_t>(8 * 8 * 700, 1)};
+  EXPECT_TRUE(find_seeds(blank, 3.0).empty());
+  for (std::size_t k = 400; k < 700; ++k)  // and a body of nine slices beside it
+    std::fill_n(blank.values.begin() + static_cast<std::ptrdiff_t>(blank.index(0, 0, k)), 64, k / 9 == 60);
+  const auto seeds = find_seeds(blank, 3.0);
+  ASSERT_EQ(seeds.size(), 1u);
+  EXPECT_DOUBLE_EQ(seeds.front().radius, 4.5);
+  EXPECT_DOUBLE_EQ(seeds.front().centre.z(), 544.0);
 }
 
 // Another program's map.
