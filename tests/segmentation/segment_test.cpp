@@ -246,39 +246,6 @@ TEST(Segment, NoBeadsIsBadInput) {
   EXPECT_THROW(segment(test::ball_volume({8, 40, 40}, {{Vec3(4, 20, 20), 3.0}}, 1.0, 0.0)), BadInput);
 }
 
-TEST(Segment, FinneysPacking) {
-  const auto path = test::shared_data("finney/FinneyPack.txt");
-  if (!path) GTEST_SKIP() << "no trial data (finney/FinneyPack.txt)";
-  constexpr double radius = 10.0;
-  std::vector<test::TrueBall> balls;
-  std::ifstream in(*path);
-  Vec3 low = Vec3::Constant(1e9), high = -low;
-  for (double id, x, y, z; in >> id >> x >> y >> z;) {
-    balls.push_back({radius * Vec3(x, y, z), radius});
-    low = low.cwiseMin(balls.back().centre);
-    high = high.cwiseMax(balls.back().centre);
-  }
-  ASSERT_EQ(balls.size(), 4021u);
-  std::vector<Bead> truth;
-  for (auto& ball : balls) {
-    ball.centre += Vec3::Constant(radius + 4.0) - low;
-    truth.push_back({});
-    truth.back().centre = 1e-6 * ball.centre;
-    truth.back().diameter = 2e-6 * radius;
-  }
-  std::array<std::size_t, 3> size;
-  for (int axis = 0; axis < 3; ++axis)
-    size[axis] = static_cast<std::size_t>(high[axis] - low[axis] + 2.0 * radius + 9.0);
-  const Segmentation found = segment(test::ball_volume(size, balls, 1.0, 0.05));
-  const test::Comparison result = test::compare(truth, found.beads, 1e-6);
-  SCOPED_TRACE(fmt::format("centre rms {:.4f}, diameter bias {:.4f} voxels, pull {:.2f}", result.centre_rms,
-                           result.diameter_bias, result.pull));
-  EXPECT_EQ(result.missed, 0);
-  EXPECT_EQ(result.invented, 0);
-  EXPECT_LT(result.centre_rms, 0.05);
-  EXPECT_LT(std::abs(result.diameter_bias), 0.05);
-}
-
 TEST(Segment, SteelOfIrregularGrains) {
   const auto raw = test::shared_data("steel_ct/steel_raw_100.mha"),
              truth = test::shared_data("steel_ct/steel_bw_pore_white_100.mha");
