@@ -71,7 +71,9 @@ struct DiagnosisThresholds {
   double seen = 0.9;           ///< runs told from none, from where an effect is seen on [definition]
   double by_slip = 0.05;       ///< level of the test that a pair is told from its effects [definition]
   double worth_of_all = 10.0;  ///< runs that what all effects need is worth beside an effect's own [replay]
-  double like_pairs = 2.0;     ///< P(unknown like two effects) over what pairs have beyond one [development]
+  double misfit_grows = 1.6;  ///< power of the share of replayed runs that leave more, with which the odds of
+                              ///< `unknown` fall [development]
+  double lets_unknown_in = 0.3;  ///< P(unknown) from which it is in a set [development]
   double beside_unknown =
       0.01;  ///< probability from which anything is beside a leading `unknown` [development]
   double least_in_cluster = 40.0;  ///< runs [replay]

@@ -56,9 +56,10 @@ std::vector<Replayed> knowing(std::vector<Replayed> replayed, const std::set<std
     std::set<std::string> there;
     for (const auto& [id, theta] : one.truth)
       if (effects.contains(id)) there.insert(id);
+    // What is not in the library is not any of them.
+    if (!there.empty()) std::erase_if(one.said, [](const Hypothesis& h) { return h.id == kUnknown; });
     double sum = 0.0;
     for (auto& h : one.said) {
-      // What is not in the library is not any of them.
       if (found_in(h, effects) != there) h.probability *= kRuledOut, h.log_evidence += std::log(kRuledOut);
       sum += h.probability;
     }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "diagnosis/inference/log_sum.h"
@@ -14,7 +15,9 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr double kTemperatures[] = {1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0};
-constexpr double kLeastProbability = 1e-9;  // that a wrong answer is charged with
+constexpr double kRatios[] = {1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 7.0, 10.0};  // of that of pairs
+constexpr double kLeastProbability = 0.01;  // that a wrong answer is charged with: few runs are not to decide
+constexpr double kHopeless = 60.0;          // evidence, as a logarithm, below the best one's
 constexpr double kConfident = 0.9;          // probability of what is said without doubt
 constexpr int kSteps = 5;                   // in which a level is raised
 constexpr double kBins[] = {0.0, 0.4, 0.6, 0.8, 0.9, 1.0};
@@ -47,26 +50,52 @@ double needed_widening(const Magnitude& magnitude, double theta) {
   return std::fabs(theta - magnitude.mean) / std::max(room, 1e-12);
 }
 
-std::vector<Hypothesis> tempered(const std::vector<Hypothesis>& said, double temperature) {
-  Correction correction;
-  correction.temperature = temperature, correction.widening_of_others = 1.0;
-  return corrected(said, correction);
-}
-
 using Cases = std::vector<const Replayed*>;
 
-double temperature_of(const Cases& cases) {
-  double best = 1.0, least = INFINITY;
-  for (const double temperature : kTemperatures) {
-    double loss = 0.0;
-    for (const auto* one : cases) {
-      const auto said = tempered(one->said, temperature);
-      const Hypothesis* truth = said_of(said, truth_of(*one));
-      loss -= std::log(std::max(kLeastProbability, truth ? truth->probability : 0.0));
-    }
-    if (loss < least) least = loss, best = temperature;
+/// A known explanation of a replayed run, for the search of temperatures.
+struct Term {
+  double prior, evidence, beyond_plainer;  ///< logarithms
+};
+
+struct Terms {
+  std::vector<Term> all = {};
+  std::optional<std::size_t> truth = {};
+};
+
+Terms terms_of(const Replayed& one) {
+  Terms terms;
+  const std::string truth = truth_of(one);
+  double best = -std::numeric_limits<double>::infinity();
+  for (const auto& h : one.said) best = std::max(best, h.log_evidence);
+  for (const auto& h : one.said) {
+    if (h.id == kUnknown || (h.id != truth && h.log_evidence < best - kHopeless)) continue;
+    if (h.id == truth) terms.truth = terms.all.size();
+    terms.all.push_back({std::log(std::max(1e-300, h.probability)) - h.log_evidence, h.log_evidence,
+                         effects_in(h.id).size() == 2 ? beyond_plainer(h, one.said) : 0.0});
   }
-  return best;
+  return terms;
+}
+
+/// Temperatures at which the known explanations' probabilities say most of what is true.
+void learn_temperatures(const Cases& cases, Correction& found) {
+  std::vector<Terms> runs;
+  for (const auto* one : cases) runs.push_back(terms_of(*one));
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<double> logs;
+  for (const double temperature : kTemperatures)
+    for (const double ratio : kRatios) {
+      const double of_pairs = 1.0 / (ratio * temperature) - 1.0 / temperature;
+      double loss = 0.0;
+      for (const auto& [all, truth] : runs) {
+        logs.clear();
+        for (const auto& term : all)
+          logs.push_back(term.prior + term.evidence / temperature + of_pairs * term.beyond_plainer);
+        const double of_truth = truth ? logs[*truth] - log_sum(logs) : std::log(kLeastProbability);
+        loss -= std::max(std::log(kLeastProbability), of_truth);
+      }
+      if (loss < least)
+        least = loss, found.temperature = temperature, found.temperature_of_pairs = ratio * temperature;
+    }
 }
 
 bool holds_any(const AmbiguitySet& set, const std::vector<std::string>& ids) {
@@ -234,18 +263,15 @@ void learn_levels_of_right_sets(const std::vector<std::vector<Hypothesis>>& said
   }
 }
 
-Correction learn(const Cases& cases, double confidence) {
+Correction learn(const Cases& cases, double confidence, double misfit) {
   Correction found;
-  found.temperature = temperature_of(cases);
+  found.misfit = misfit, found.gate = kThresholds.lets_unknown_in;
+  learn_temperatures(cases, found);
+  for (const auto* one : cases)
+    if (one->truth.size() < 2) found.misfits.push_back(left_by_plain(one->said));
+  std::sort(found.misfits.begin(), found.misfits.end());
   std::vector<std::vector<Hypothesis>> said;
-  std::vector<double> alarms, left;
-  for (const auto* one : cases) {
-    said.push_back(tempered(one->said, found.temperature));
-    alarms.push_back(beside_known(said.back()));
-    left.push_back(left_by_best(said.back()));
-  }
-  found.gate = conformal(std::move(alarms), 1.0 - 0.5 * kThresholds.false_alarms);
-  found.farthest = conformal(std::move(left), 1.0 - 0.5 * kThresholds.false_alarms);
+  for (const auto* one : cases) said.push_back(corrected(one->said, found));
   learn_levels(said, cases, confidence, found);
   learn_what_is_told(said, cases, found);
   learn_levels_of_right_sets(said, cases, confidence, found);
@@ -316,28 +342,26 @@ double EffectReplay::seen_from() const {
   return least_told(runs, kThresholds.seen);
 }
 
-Promise promise_of(const std::vector<Replayed>& replayed, double confidence) {
+Promise promise_of(const std::vector<Replayed>& replayed, double confidence, double misfit) {
   Promise promise;
   promise.confidence = confidence;
   promise.correction.level = std::max(confidence, promise.correction.level);
   Cases cases, outside;
   std::set<int> members;
   for (const auto& one : replayed) {
-    // A pair whose runs are all of one member is not known where that member is left out.
-    if (one.truth.size() > 1 && !said_of(one.said, truth_of(one))) continue;
     (one.left_out.empty() ? cases : outside).push_back(&one);
     members.insert(one.member);
   }
   if (cases.size() < kThresholds.least_cases || members.size() < 3) return promise;
   promise.cases = cases.size();
-  promise.correction = learn(cases, of_replayed(confidence));
+  promise.correction = learn(cases, of_replayed(confidence), misfit);
   std::vector<Reliability> bins(std::size(kBins) - 1);
   double magnitudes = 0.0, plain = 0.0;
   for (const int member : members) {
     Cases others;
     std::copy_if(cases.begin(), cases.end(), std::back_inserter(others),
                  [&](const Replayed* one) { return one->member != member; });
-    const Correction without = learn(others, of_replayed(confidence));
+    const Correction without = learn(others, of_replayed(confidence), misfit);
     for (const auto* one : cases)
       if (one->member == member) count(*one, without, promise, bins, magnitudes, plain);
     for (const auto* one : outside)

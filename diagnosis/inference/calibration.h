@@ -61,12 +61,13 @@ struct Promise {
 /// of n replayed sets hold their truth (Vovk et al. 2005). At that level it is learnt from which magnitude on
 /// half of an effect's runs, of either sign, are told from none: none stands for smaller ones (stand_in()),
 /// and a set that holds none is right for them; and which pairs are told from none and their effects no more
-/// often than slips of 5 % explain (binomial test at 5 %). The level is then found again. `unknown` is let in
-/// by the same rule at a false-alarm rate of 5 %, half of it for its probability and half for χ² of the best
-/// explanation; intervals of θ likewise at 90 %, those of effects with few runs drawn to what all need; upper
-/// limits at 95 %.
+/// often than slips of 5 % explain (binomial test at 5 %). The level is then found again. Temperatures, of
+/// all evidence and of what pairs have beyond their effects, are those of the least logarithmic loss; what is
+/// worse than a hundredth counts as that. `unknown` is judged by χ² that runs with one effect or none leave,
+/// and by `misfit` (Priors). Intervals of θ hold it at 90 %, those of effects with few runs drawn to what all
+/// need; upper limits at 95 %.
 ///
 /// Nothing is learnt from runs whose effect was left out; what becomes of them is counted.
-Promise promise_of(const std::vector<Replayed>& replayed, double confidence);
+Promise promise_of(const std::vector<Replayed>& replayed, double confidence, double misfit = Priors{}.misfit);
 
 }  // namespace pendular::diagnosis

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "diagnosis/inference/log_sum.h"
@@ -12,13 +13,6 @@ namespace {
 
 bool is_pair(const Hypothesis& h) {
   return h.id == kOtherPairs || effects_in(h.id).size() == 2;
-}
-
-double probability_of_pairs(const std::vector<Hypothesis>& said) {
-  double sum = 0.0;
-  for (const auto& h : said)
-    if (is_pair(h)) sum += h.probability;
-  return sum;
 }
 
 /// Pairs that were not run, as one explanation: whichever is named, no run shows what it does.
@@ -38,22 +32,17 @@ std::vector<Hypothesis> with_others_as_one(std::vector<Hypothesis> said) {
   return found;
 }
 
-/// Something unknown often does what two effects would: it has a share of what pairs have beyond the better
-/// of their effects.
-void add_what_is_like_pairs(std::vector<Hypothesis>& said, double temperature) {
-  double like = 0.0;
+/// What is unknown has beside each explanation, by how many replayed runs leave more.
+void weigh_unknown_by_misfits(std::vector<Hypothesis>& said, const Correction& correction) {
+  const auto& all = correction.misfits;
+  double odds = 0.0;
   for (const auto& h : said) {
-    if (!is_pair(h)) continue;
-    double needless = 0.0;  // share of its evidence that one of its effects has alone
-    for (const auto& id : effects_in(h.id))
-      if (const Hypothesis* one = said_of(said, id))
-        needless = std::max(needless, std::exp((one->log_evidence - h.log_evidence) / temperature));
-    like += kThresholds.like_pairs * h.probability * std::max(0.0, 1.0 - needless);
+    if (h.id == kUnknown) continue;
+    const auto more = all.end() - std::lower_bound(all.begin(), all.end(), h.chi_squared);
+    const double share = (1.0 + static_cast<double>(more)) / (1.0 + static_cast<double>(all.size()));
+    odds += h.probability * correction.misfit * std::pow(share, -kThresholds.misfit_grows);
   }
-  for (auto& h : said) {
-    h.like_pairs = h.id == kUnknown ? like / (1.0 + like) : 0.0;
-    h.probability = h.probability / (1.0 + like) + h.like_pairs;
-  }
+  for (auto& h : said) h.probability = (h.id == kUnknown ? odds : h.probability) / (1.0 + odds);
 }
 
 }  // namespace
@@ -71,17 +60,18 @@ std::vector<std::string> plainer(const std::string& id) {
   return ids;
 }
 
-double beside_known(const std::vector<Hypothesis>& said) {
-  const Hypothesis *unknown = said_of(said, kUnknown), *others = said_of(said, kOtherPairs);
-  if (!unknown) return 0.0;
-  const double among = 1.0 - unknown->like_pairs - (others ? others->probability : 0.0);
-  return among > 0.0 ? (unknown->probability - unknown->like_pairs) / among : 0.0;
+double beyond_plainer(const Hypothesis& pair, const std::vector<Hypothesis>& said) {
+  double best = -std::numeric_limits<double>::infinity();
+  for (const auto& id : plainer(pair.id))
+    if (const Hypothesis* one = said_of(said, id)) best = std::max(best, one->log_evidence);
+  return std::isfinite(best) ? pair.log_evidence - best : 0.0;
 }
 
-double left_by_best(const std::vector<Hypothesis>& said) {
+double left_by_plain(const std::vector<Hypothesis>& said) {
+  const Hypothesis* best = nullptr;
   for (const auto& h : said)
-    if (h.id != kUnknown && h.id != kOtherPairs) return h.chi_squared;
-  return 0.0;
+    if (h.id != kUnknown && !is_pair(h) && (!best || h.log_evidence > best->log_evidence)) best = &h;
+  return best ? best->chi_squared : 0.0;
 }
 
 bool holds(const AmbiguitySet& set, const std::string& id) {
@@ -94,10 +84,15 @@ double upper_limit(const Magnitude& magnitude, const Correction& correction) {
 }
 
 std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction) {
+  const bool by_misfits = !correction.misfits.empty() && said_of(said, kUnknown);
+  const double of_pairs = 1.0 / correction.temperature_of_pairs - 1.0 / correction.temperature;
   std::vector<double> logs;
-  for (const auto& h : said)
+  for (const auto& h : said) {
     logs.push_back(std::log(std::max(1e-300, h.probability)) +
                    h.log_evidence * (1.0 / correction.temperature - 1.0));
+    if (is_pair(h)) logs.back() += of_pairs * beyond_plainer(h, said);
+    if (by_misfits && h.id == kUnknown) logs.back() = -std::numeric_limits<double>::infinity();
+  }
   const double total = log_sum(logs);
   for (std::size_t k = 0; k < said.size(); ++k) {
     said[k].probability = std::exp(logs[k] - total);
@@ -106,7 +101,7 @@ std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction
     for (auto& [mean, interval] : said[k].magnitudes)
       interval = {mean + widening * (interval.first - mean), mean + widening * (interval.second - mean)};
   }
-  if (said_of(said, kUnknown)) add_what_is_like_pairs(said, correction.temperature);
+  if (by_misfits) weigh_unknown_by_misfits(said, correction);
   said = with_others_as_one(std::move(said));
   std::stable_sort(said.begin(), said.end(),
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });
@@ -114,16 +109,10 @@ std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction
 }
 
 const char* why_unknown(const std::vector<Hypothesis>& said, const Correction& correction) {
-  const double pairs = probability_of_pairs(said);
-  double singles = 0.0;  // and none
-  for (const auto& h : said)
-    if (h.id != kUnknown && !is_pair(h)) singles += h.probability;
-  constexpr const char* kLeft = "what is left is not like the noise";
-  if (beside_known(said) > correction.gate) return kLeft;
-  if (left_by_best(said) > correction.farthest)
-    return "the best explanation leaves more than replayed runs do";
-  if (pairs > singles) return "something unknown does more often what two effects would";
-  return !said.empty() && said.front().id == kUnknown ? kLeft : nullptr;
+  const Hypothesis* unknown = said_of(said, kUnknown);
+  if (!unknown || (unknown->probability <= correction.gate && unknown != &said.front())) return nullptr;
+  return correction.misfits.empty() ? "what is left is not like the noise"
+                                    : "the explanations leave more than most replayed runs do";
 }
 
 const Hypothesis* stand_in(const Hypothesis& h, const std::vector<Hypothesis>& said,

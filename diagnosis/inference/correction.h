@@ -23,12 +23,14 @@ struct ToldFrom {
 /// How probabilities, sets and intervals are made to hold what they promise, learnt from a replay; as it
 /// stands, for a bank that is too small for one: wide.
 struct Correction {
-  double temperature = 2.0;                   ///< by which logarithms of evidence are divided
-  double level = 0.95;                        ///< of the known explanations' probability, that a set holds
+  double temperature = 2.0;           ///< by which logarithms of evidence are divided
+  double temperature_of_pairs = 4.0;  ///< likewise, what a pair's has beyond the best of plainer()
+  std::vector<double> misfits = {};   ///< χ² that none or one effect leaves in replayed runs, ascending
+  double misfit = Priors{}.misfit;    ///< Priors::misfit
+  double level = 0.95;                ///< of the known explanations' probability, that a set holds
   std::map<std::string, double> levels = {};  ///< likewise, for explanations that need another one to get in
-  double gate = 0.1;  ///< probability of `unknown`, beside what is like pairs, from which it is in the set
-  double farthest = std::numeric_limits<double>::infinity();  ///< χ² of the best named one, likewise
-  std::map<std::string, double> widening = {};                ///< of an effect's interval of θ
+  double gate = 0.1;                          ///< P(unknown) from which it is in the set
+  std::map<std::string, double> widening = {};  ///< of an effect's interval of θ
   double widening_of_others = 2.0;
   double widening_of_limits = 2.0;                 ///< of upper limits of |θ|, beside that of intervals
   std::map<std::string, ToldFrom> told_from = {};  ///< of effects; one that is not in it, at any magnitude
@@ -46,14 +48,14 @@ struct AmbiguitySet {
 double upper_limit(const Magnitude& magnitude, const Correction& correction);
 
 /// Probabilities by tempered evidence, and intervals widened about their means. Pairs that were not run are
-/// one explanation, kOtherPairs; `unknown` has, beside its own, a share (kThresholds.like_pairs) of what
-/// pairs have beyond the better of their effects: what is outside the library often does what two effects
-/// would.
+/// one explanation, kOtherPairs. Where misfits were learnt, `unknown` is judged by them: beside an
+/// explanation that leaves more than all but a share q of replayed runs its odds are misfit q^−1.6. What an
+/// unmodelled mechanism does is often done by two effects, but seldom by one: so it is one effect's residual
+/// that tells.
 std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction);
 
 /// Why `unknown` is in the set of corrected explanations, as a clause; null where it is not. It is where it
-/// is the most probable, where it passes the gate, where the best explanation is farther off than replayed
-/// runs are, and where pairs together outweigh none and single effects.
+/// is the most probable, and where it passes the gate.
 const char* why_unknown(const std::vector<Hypothesis>& corrected, const Correction& correction);
 
 /// Of corrected explanations: `unknown` (why_unknown()), and the most probable of the others until they hold
@@ -79,11 +81,10 @@ bool holds(const AmbiguitySet& set, const std::string& id);
 /// pair.
 std::vector<std::string> plainer(const std::string& id);
 
-/// Of P(unknown) the part that is not like two effects, among what is neither that nor a pair that was not
-/// run: what replayed runs can be held against.
-double beside_known(const std::vector<Hypothesis>& corrected);
+/// What a pair's evidence has, as a logarithm, beyond the best of what may stand for it.
+double beyond_plainer(const Hypothesis& pair, const std::vector<Hypothesis>& said);
 
-/// χ² of the most probable explanation that names what it is.
-double left_by_best(const std::vector<Hypothesis>& corrected);
+/// χ² that the most probable of none and single effects leaves.
+double left_by_plain(const std::vector<Hypothesis>& said);
 
 }  // namespace pendular::diagnosis

@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kCells = 81;            // of an effect's range, in which another's nearest is looked for
 constexpr double kNegligible = 12.0;  // evidence of a pair, as a logarithm, below the best one's
+constexpr double kLeading = 1.0;      // the same above it, from which a pair may displace a single effect
 constexpr double kLeastShare = 0.01, kStep = 1.25;  // of the magnitudes at which an effect is looked for
 
 Weighed none(const ReducedSpace& space, const ReducedGap& gap) {
@@ -101,12 +102,12 @@ Eigen::VectorXd at_scale(const Signature& signature) {
 
 Weigher::Weigher(const Gap& gap, const std::vector<Signature>& signatures,
                  const std::vector<Together>& together, const Priors& priors, Pairs which)
-    : space_(gap, signatures), priors_(priors) {
+    : space_(gap, signatures), priors_(priors), which_(which) {
   for (const auto& signature : signatures) reduced_.push_back(with_visible(space_.reduced(signature)));
   for (std::size_t a = 0; a < reduced_.size(); ++a)
     for (std::size_t b = a + 1; b < reduced_.size(); ++b) {
       auto run = together_of(together, reduced_[a], reduced_[b], space_);
-      if (run || which == Pairs::all) pairs_.push_back({a, b, std::move(run)});
+      pairs_.push_back({a, b, std::move(run)});
     }
 }
 
@@ -138,23 +139,40 @@ std::vector<std::vector<Hypothesis>> Weigher::of_singles(const std::vector<Reduc
   return all;
 }
 
+bool Weigher::matters(const Pair& pair, const std::vector<Hypothesis>& singles) const {
+  if (pair.run || which_ != Pairs::leading) return true;
+  const Hypothesis* best = nullptr;
+  for (const auto& h : singles)
+    if (h.magnitudes.size() == 1 && (!best || h.log_evidence > best->log_evidence)) best = &h;
+  return best && (reduced_[pair.a].id == best->id || reduced_[pair.b].id == best->id);
+}
+
 void Weigher::add_pairs(const std::vector<ReducedGap>& gaps, double negligible,
                         std::vector<std::vector<Hypothesis>>& all) const {
-  std::vector<std::vector<Hypothesis>> of_pairs(pairs_.size());
+  std::vector<std::vector<std::optional<Hypothesis>>> of_pairs(pairs_.size());
   for_blocks(pairs_.size(), 1, [&](std::size_t p, std::size_t) {
     const auto& [a, b, run] = pairs_[p];
-    MagnitudeGrid grid({reduced_[a], reduced_[b]}, run, space_);
-    auto fitted = grid.fit(gaps);
-    const double less = run ? negligible : std::min(negligible, kNegligible);
+    std::vector<std::size_t> places;
+    std::vector<ReducedGap> theirs;
     for (std::size_t k = 0; k < gaps.size(); ++k)
-      of_pairs[p].push_back(
-          grid.weigh(gaps[k], std::move(fitted[k]), best_of(all[k]).log_evidence - less).hypothesis);
+      if (matters(pairs_[p], all[k])) places.push_back(k), theirs.push_back(gaps[k]);
+    of_pairs[p].resize(gaps.size());
+    if (places.empty()) return;
+    MagnitudeGrid grid({reduced_[a], reduced_[b]}, run, space_);
+    auto fitted = grid.fit(theirs);
+    const double less = run                        ? negligible
+                        : which_ == Pairs::leading ? -kLeading
+                                                   : std::min(negligible, kNegligible);
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      auto& found = of_pairs[p][places[n]];
+      found =
+          grid.weigh(theirs[n], std::move(fitted[n]), best_of(all[places[n]]).log_evidence - less).hypothesis;
+      found->run = run.has_value();
+    }
   });
   for (std::size_t k = 0; k < gaps.size(); ++k)
-    for (std::size_t p = 0; p < pairs_.size(); ++p) {
-      all[k].push_back(std::move(of_pairs[p][k]));
-      all[k].back().run = pairs_[p].run.has_value();
-    }
+    for (auto& of_pair : of_pairs)
+      if (of_pair[k]) all[k].push_back(std::move(*of_pair[k]));
 }
 
 std::vector<std::vector<Hypothesis>> Weigher::operator()(const std::vector<Eigen::VectorXd>& observed,

@@ -14,6 +14,7 @@ namespace pendular::diagnosis {
 struct Priors {
   double none = 0.2, unknown = 0.15, pairs = 0.15;
   double like_known = 0.5;  ///< of unknown mechanisms: that it does what an effect of the library would
+  double misfit = 0.06;     ///< odds of `unknown` to an explanation that leaves less than every replayed run
 };
 
 struct Magnitude {
@@ -32,14 +33,14 @@ struct Hypothesis {
   std::vector<Magnitude> magnitudes;  ///< one per effect
   double chi_squared = 0.0;           ///< at the best magnitudes
   bool run = true;                    ///< of a pair: it was run what they do together
-  double like_pairs = 0.0;  ///< of `unknown`, corrected(): probability of what does what two effects would
 };
 
 /// Effects that an explanation names: none in "none", "unknown" and kOtherPairs, two in "a+b".
 std::vector<std::string> effects_in(const std::string& id);
 
-/// Which pairs are weighed: all, or those of which it was run what they do together.
-enum class Pairs { all, run };
+/// Which pairs are weighed: all, or those that were run and those of the observation's most probable single
+/// effect.
+enum class Pairs { all, leading };
 
 /// Probabilities over none, every effect, every pair of effects, and unknown; most probable first.
 ///

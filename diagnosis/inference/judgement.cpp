@@ -105,7 +105,7 @@ std::string why_excluded(const Problem& problem, const Hypothesis& h, double chi
 Priors priors_of(const Comparison& readings, const Rules& rules) {
   Priors priors = rules.priors;
   if (std::find(readings.inputs.begin(), readings.inputs.end(), kFieldError) != readings.inputs.end())
-    priors.like_known = rules.like_known_in_fields;
+    priors.like_known = rules.like_known_in_fields, priors.misfit = rules.misfit_in_fields;
   return priors;
 }
 
@@ -272,7 +272,7 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   diagnosis.promise = promise_of(
       problem.features ? replay(experiment, plan, *problem.features, priors, rules.draws, LeftOut::effects)
                        : std::vector<Replayed>{},
-      rules.confidence);
+      rules.confidence, priors.misfit);
   const auto hypotheses = corrected(weigh(readings.gap, readings.signatures, readings.together, priors),
                                     diagnosis.promise.correction);
   const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();

@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "diagnosis/bank/mean_row.h"
 #include "diagnosis/inference/weigher.h"
+#include "diagnosis/thresholds.h"
 #include "effects/list.h"
 
 namespace pendular::diagnosis {
@@ -71,14 +72,28 @@ std::vector<std::size_t> runs_to_leave_out(const BankPlan& plan) {
   return chosen;
 }
 
+/// Whether other members tell what a run's effects do: of a pair where they were run together on another.
+bool known(const Changes& truth, const std::vector<Together>& together) {
+  return truth.size() < 2 || std::any_of(together.begin(), together.end(), [&](const Together& pair) {
+           return truth.contains(pair.a) && truth.contains(pair.b);
+         });
+}
+
+/// A diagnosis makes runs at pairs that are probable (leading_points()): in its replay they are as good as
+/// run.
+std::vector<Hypothesis> as_if_run(std::vector<Hypothesis> said) {
+  for (auto& h : said) h.run = h.run || h.probability >= kThresholds.pair_leads;
+  return said;
+}
+
 /// Diagnoses a run of one effect by a library that lacks the effect.
 Replayed without_its_effect(const Replayed& run, const Eigen::VectorXd& observed, Comparison learnt,
                             const Priors& priors) {
   const std::string effect = run.truth.begin()->first;
   std::erase_if(learnt.signatures, [&](const Signature& one) { return one.id == effect; });
   std::erase_if(learnt.together, [&](const Together& one) { return one.a == effect || one.b == effect; });
-  const Weigher weigher(learnt.gap, learnt.signatures, learnt.together, priors, Pairs::run);
-  return {run.member, run.truth, weigher({observed}, kNegligible).front(), effect};
+  const Weigher weigher(learnt.gap, learnt.signatures, learnt.together, priors, Pairs::leading);
+  return {run.member, run.truth, as_if_run(weigher({observed}, kNegligible).front()), effect};
 }
 
 std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan& plan,
@@ -86,7 +101,7 @@ std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan
                                     const std::vector<std::size_t>& left_out) {
   const auto [design, held] = features.held_out(member, draws);
   const Comparison learnt = compare(experiment, plan, design);
-  const Weigher weigher(learnt.gap, learnt.signatures, learnt.together, priors, Pairs::run);
+  const Weigher weigher(learnt.gap, learnt.signatures, learnt.together, priors, Pairs::leading);
   const Errors errors(learnt);
   std::vector<Eigen::VectorXd>
       baselines;  // of the size of the runs, which may be smaller than the observed one
@@ -100,12 +115,13 @@ std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan
     Replayed one{member, {}, {}};
     for (const auto& [id, theta] : changes)
       if (is_effect(id) && !weigher.absent(id, theta)) one.truth[id] = theta;
+    if (!known(one.truth, learnt.together)) continue;
     found.push_back(std::move(one));
     observed.push_back(run.values - mean +
                        errors.draw(kSeedsOfMember * static_cast<std::uint64_t>(member) + k));
   }
   auto said = weigher(observed, kNegligible);
-  for (std::size_t k = 0; k < found.size(); ++k) found[k].said = std::move(said[k]);
+  for (std::size_t k = 0; k < found.size(); ++k) found[k].said = as_if_run(std::move(said[k]));
   for (const std::size_t at : left_out) {
     const DesignPoint& point = plan.points[at];
     const auto run = std::find_if(found.begin(), found.end(),

@@ -22,8 +22,10 @@ enum class LeftOut { nothing, effects };
 /// Every run of the bank that goes all the way is an experiment of known truth: its own errors of measurement
 /// and of the simulation, and wrong beliefs, are drawn by their covariances, seeded by its place; its member
 /// is left out of all that is learnt. Members are replayed in parallel; what comes out does not depend on the
-/// number of threads. `draws`: of each run. Those without an effect, runs of believed inputs and of readings
-/// of the law among them, are about as large a share as none is probable a priori (Priors).
+/// number of threads. Pairs are looked for as in a diagnosis, among those of the most probable single effect;
+/// a run of a pair that other members were not run with is none of them. `draws`: of each run. Those without
+/// an effect, runs of believed inputs and of readings of the law among them, are about as large a share as
+/// none is probable a priori (Priors).
 ///
 /// LeftOut::effects: three runs of each effect, at a third, two thirds and the end of their order by
 /// magnitude, are diagnosed once more by a library without the effect, as if it were a mechanism outside the

@@ -42,8 +42,12 @@ class Weigher {
   void add_pairs(const std::vector<ReducedGap>& gaps, double negligible,
                  std::vector<std::vector<Hypothesis>>& all) const;
 
+  /// Whether a pair is weighed for an observation, of which single effects are weighed already.
+  bool matters(const Pair& pair, const std::vector<Hypothesis>& singles) const;
+
   ReducedSpace space_;
   Priors priors_;
+  Pairs which_;
   std::vector<Signature> reduced_;
   std::vector<Pair> pairs_;
 };

@@ -51,7 +51,7 @@ TEST(Calibration, LeavesRightProbabilitiesAlone) {
   EXPECT_LE(promise.correction.temperature, 1.25);
   for (const auto& bin : promise.reliability) {
     if (bin.cases < 50) continue;
-    EXPECT_NEAR(bin.said, bin.came_true, 0.08);
+    EXPECT_NEAR(bin.said * (1.0 + Priors{}.misfit), bin.came_true, 0.08);  // none of them is unknown
   }
   EXPECT_NEAR(promise.theta_held, 0.9, 0.04);
   EXPECT_LT(promise.correction.widening_of_others, 1.15);
@@ -188,54 +188,56 @@ TEST(Calibration, PairsThatWereNotRunAreOneExplanation) {
   }
 }
 
-TEST(Calibration, WhatIsUnknownHasAShareOfWhatPairsHave) {
+TEST(Calibration, WhatIsUnknownIsJudgedByWhatReplayedRunsLeave) {
   Correction correction;
-  correction.temperature = 1.0;
-  const auto said = corrected(with_pairs(), correction);
-  double pairs = 0.0;
-  for (const auto& id : {"a+b", "a+c", kOtherPairs}) pairs += of(said, id);
-  EXPECT_NEAR(pairs / of(said, "none"), 0.45 / 0.3, 1e-12);
-  // Beyond the better of their effects; of these only a is weighed by itself.
-  const double like = 2.0 * (0.2 * (1.0 - std::exp(-2.0)) + 0.1 * (1.0 - std::exp(-1.0)) + 0.08 + 0.07);
-  EXPECT_NEAR(of(said, "unknown") / of(said, "none"), (0.05 + like) / 0.3, 1e-12);
-  double sum = 0.0;
-  for (const auto& h : said) sum += h.probability;
-  EXPECT_NEAR(sum, 1.0, 1e-12);
+  correction.temperature = 1.0, correction.misfit = 0.1;
+  for (int k = 1; k < 100; ++k) correction.misfits.push_back(k);
+  const auto odds = [&](double of_a, double of_b) {
+    const auto said = corrected(
+        {{"a", 0.0, 0.6, {}, of_a}, {"b", 0.0, 0.3, {}, of_b}, {"unknown", 9.0, 0.1, {}, 0.0}}, correction);
+    const double unknown = of(said, "unknown");
+    EXPECT_NEAR(of(said, "a") / of(said, "b"), 2.0, 1e-12);
+    EXPECT_NEAR(of(said, "a") + of(said, "b") + unknown, 1.0, 1e-12);
+    return unknown / (1.0 - unknown);
+  };
+  const double of_one_in_twenty = 0.1 * std::pow(0.05, -kThresholds.misfit_grows);
+  EXPECT_NEAR(odds(0.5, 0.5), 0.1, 1e-12);  // all runs leave more
+  EXPECT_NEAR(odds(95.5, 95.5), of_one_in_twenty, 1e-9);
+  EXPECT_NEAR(odds(95.5, 0.5), (2.0 * of_one_in_twenty + 0.1) / 3.0, 1e-9);
+  EXPECT_NEAR(odds(1e9, 1e9), 0.1 * std::pow(0.01, -kThresholds.misfit_grows), 1e-9);
 }
 
-TEST(Calibration, PairsThatOutweighSingleEffectsLetUnknownIn) {
+TEST(Calibration, APairHasWhatItsEffectsHaveAndItsOwnAtItsOwnTemperature) {
   Correction correction;
-  correction.temperature = 1.0, correction.level = 0.5, correction.gate = 0.3;
-  const auto said = [](double pair) {
-    return std::vector<Hypothesis>{
-        {"a", 0.0, 1.0 - pair, {}, 0.0}, {"a+b", 0.0, pair, {}, 0.0}, {"unknown", 0.0, 1e-6, {}, 0.0}};
-  };
-  const auto little = corrected(said(0.45), correction), more = corrected(said(0.55), correction);
-  EXPECT_EQ(why_unknown(little, correction), nullptr);
-  EXPECT_NE(why_unknown(more, correction), nullptr);
-  using Ids = std::vector<std::string>;
-  EXPECT_EQ(set_of(little, correction).ids, (Ids{"a"}));
-  EXPECT_EQ(set_of(more, correction).ids, (Ids{"a+b", "unknown"}));
+  correction.temperature = 2.0, correction.temperature_of_pairs = 5.0;
+  const auto said = corrected({{"none", 0.0, 0.25, {}, 0.0},
+                               {"a", 4.0, 0.25 * std::exp(4.0), {}, 0.0},
+                               {"b", 3.0, 0.25 * std::exp(3.0), {}, 0.0},
+                               {"a+b", 14.0, 0.25 * std::exp(14.0), {}, 0.0}},
+                              correction);
+  EXPECT_NEAR(of(said, "a") / of(said, "none"), std::exp(4.0 / 2.0), 1e-9);
+  EXPECT_NEAR(of(said, "a+b") / of(said, "a"), std::exp(10.0 / 5.0), 1e-9);
 }
 
-TEST(Calibration, ABestExplanationThatIsFartherThanRunsLetsUnknownIn) {
-  Correction correction;
-  correction.level = 0.5, correction.gate = 0.3, correction.farthest = 20.0;
-  const auto said = [](double chi_squared) {
-    return std::vector<Hypothesis>{
-        {"a", 0.0, 0.95, {}, chi_squared}, {"b", 0.0, 0.04, {}, 15.0}, {"unknown", 0.0, 0.01, {}, 40.0}};
+TEST(Calibration, PairsThatFitByChanceAreTempered) {
+  // Beside each effect a pair that has more by an exponential law, which no run is made of.
+  const auto with_chance = [](double mean) {
+    auto all = runs(1.0, 1.0, 31);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      std::vector<Hypothesis> pairs;
+      for (const auto& h : all[k].said)
+        if (h.id == "a" || h.id == "b" || h.id == "c") {
+          const double beyond = -mean * std::log(random_uniform(77, 8 * k + pairs.size())) - 2.0;
+          pairs.push_back({h.id + "+d", h.log_evidence + beyond, h.probability * std::exp(beyond), {}, 0.0});
+        }
+      for (auto& pair : pairs) all[k].said.push_back(std::move(pair));
+    }
+    return promise_of(all, 0.95).correction;
   };
-  using Ids = std::vector<std::string>;
-  EXPECT_EQ(set_of(said(19.0), correction).ids, (Ids{"a"}));
-  EXPECT_EQ(set_of(said(21.0), correction).ids, (Ids{"a", "unknown"}));
-  // Of replayed runs one in forty is farther than what is learnt from them.
-  auto all = runs(1.0, 1.0, 21);
-  double farther = 0.0;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    for (auto& h : all[k].said) h.chi_squared = static_cast<double>(k);
-  const double farthest = promise_of(all, 0.9).correction.farthest;
-  for (std::size_t k = 0; k < all.size(); ++k) farther += static_cast<double>(k) > farthest;
-  EXPECT_NEAR(farther / static_cast<double>(all.size()), 0.025, 0.01);
+  const Correction little = with_chance(0.2), much = with_chance(4.0);
+  EXPECT_LE(much.temperature, 1.5);  // effects are weighed as they are without pairs
+  EXPECT_GE(much.temperature_of_pairs, 2.5 * much.temperature);
+  EXPECT_LE(little.temperature_of_pairs, much.temperature_of_pairs);
 }
 
 TEST(Calibration, PairsThatWereNotRunAreInNoSetButFirst) {
@@ -253,8 +255,8 @@ TEST(Calibration, PairsThatWereNotRunAreInNoSetButFirst) {
   };
   using Ids = std::vector<std::string>;
   EXPECT_EQ(set_of(said(0.1, 0.25), correction).ids, (Ids{"a"}));
-  EXPECT_EQ(set_of(said(0.1, 0.3), correction).ids, (Ids{"a", "unknown"}));  // of 0.9, a third
-  EXPECT_EQ(set_of(said(0.6, 0.1), correction).ids, (Ids{kOtherPairs, "a", "unknown"}));
+  EXPECT_EQ(set_of(said(0.1, 0.31), correction).ids, (Ids{"a", "unknown"}));
+  EXPECT_EQ(set_of(said(0.6, 0.1), correction).ids, (Ids{kOtherPairs, "a"}));
 }
 
 TEST(Calibration, PairsThatWereRunAreInSetsAsOftenAsAsked) {
@@ -276,22 +278,20 @@ TEST(Calibration, PairsThatWereRunAreInSetsAsOftenAsAsked) {
 TEST(Calibration, RunsWhoseEffectWasLeftOutAreCountedAndTeachNothing) {
   auto all = runs(1.0, 1.0, 11);
   const Promise known = promise_of(all, 0.95);
-  // Ten that are said to be unknown for certain, ten that are said to be a, and ten that may be either.
+  // Ten that a leaves far off, and twenty that it does not.
   for (int k = 0; k < 30; ++k) {
     Replayed one{1 + k % kMembers, {{"d", 1.0}}, {}, "d"};
-    const double unknown = k < 10 ? 0.99 : k < 20 ? 0.001 : 0.5;
-    one.said = {{"unknown", std::log(unknown), unknown, {}, 0.0},
-                {"a", std::log(1.0 - unknown), 1.0 - unknown, {{1.0, {0.0, 2.0}}}, 0.0}};
+    one.said = {{"a", -0.1, 0.9, {{1.0, {0.0, 2.0}}}, k < 10 ? 1.0 : 0.0}, {"unknown", -2.3, 0.1, {}, 0.0}};
     EXPECT_EQ(truth_of(one), "unknown");
     all.push_back(std::move(one));
   }
   const Promise promise = promise_of(all, 0.95);
   EXPECT_EQ(promise.outside.cases, 30u);
-  EXPECT_EQ(promise.outside.flagged, 20u);
-  EXPECT_EQ(promise.outside.misnamed, 10u);
+  EXPECT_EQ(promise.outside.flagged, 10u);
+  EXPECT_EQ(promise.outside.misnamed, 20u);
   EXPECT_EQ(promise.cases, known.cases);
   EXPECT_EQ(promise.correction.temperature, known.correction.temperature);
-  EXPECT_EQ(promise.correction.gate, known.correction.gate);
+  EXPECT_EQ(promise.correction.misfits, known.correction.misfits);
   EXPECT_EQ(promise.in_set, known.in_set);
   EXPECT_EQ(promise.effects.count("d"), 0u);
   EXPECT_EQ(known.outside.cases, 0u);
