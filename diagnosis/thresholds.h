@@ -61,18 +61,15 @@ struct DiagnosisThresholds {
   double fresh = 1.3;  ///< squares outside, of an observation over those of runs learnt from [replay]
 
   // Replay, probabilities and sets.
-  double false_alarms = 0.05;     ///< of `unknown`, among replayed runs [definition]
   double of_theta = 0.9;          ///< runs whose interval holds their magnitude [definition]
   double of_limits = 0.95;        ///< runs whose upper limit holds [definition]
   double missed_by_replay = 0.4;  ///< of what sets may miss, where runs are replayed: measured ones are
                                   ///< missed more often, since no law is quite theirs [development]
   double strong = 10.0;           ///< ratio of evidences that is strong (Jeffreys) [definition]
-  double told = 0.5;           ///< runs told from none, below which none stands for an effect [development]
-  double seen = 0.9;           ///< runs told from none, from where an effect is seen on [definition]
-  double by_slip = 0.05;       ///< level of the test that a pair is told from its effects [definition]
-  double worth_of_all = 10.0;  ///< runs that what all effects need is worth beside an effect's own [replay]
-  double misfit_grows = 1.6;  ///< power of the share of replayed runs that leave more, with which the odds of
-                              ///< `unknown` fall [development]
+  double told = 0.5;             ///< runs told from none, below which none stands for an effect [development]
+  double seen = 0.9;             ///< runs told from none, from where an effect is seen on [definition]
+  double by_slip = 0.05;         ///< level of the test that a pair is told from its effects [definition]
+  double worth_of_all = 10.0;    ///< runs that what all effects need is worth beside an effect's own [replay]
   double lets_unknown_in = 0.3;  ///< P(unknown) from which it is in a set [development]
   double beside_unknown =
       0.01;  ///< probability from which anything is beside a leading `unknown` [development]

@@ -67,7 +67,7 @@ class Bench {
 
   Outcome diagnosed(const State& state, std::size_t run) {
     const auto& all = replayed(state);
-    const Correction correction = promise_of(all, kConfidence).correction;
+    const Correction correction = promise_of(all, kConfidence).of_replayed;
     const auto said = corrected(all[run].said, correction);
     const AmbiguitySet set = set_of(said, correction);
     Question question;

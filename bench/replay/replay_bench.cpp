@@ -63,8 +63,8 @@ int main(int count, char** words) {
     std::cerr << fmt::format("said {:.2f} came true {:.2f} of {}\n", bin.said, bin.came_true, bin.cases);
   std::cout << "member,truth,theta,left_out,top,p_top,p_truth,p_none,p_unknown,chi_squared_top,set\n";
   for (const auto& one : replayed) {
-    const auto said = corrected(one.said, promise.correction);
-    const auto set = set_of(said, promise.correction);
+    const auto said = corrected(one.said, promise.of_replayed);
+    const auto set = set_of(said, promise.of_replayed);
     std::string ids;
     for (const auto& id : set.ids) ids += (ids.empty() ? "" : " ") + id;
     const double theta = one.truth.empty() ? 0.0 : one.truth.begin()->second;

@@ -40,8 +40,8 @@ Outlook outlook_of(const std::vector<Replayed>& replayed, double confidence,
   for (const auto& one : replayed) {
     const double w = one.truth.size() < 2 ? weight(one) : 0.0;
     if (w <= 0.0) continue;
-    const auto said = corrected(one.said, promise.correction);
-    const auto set = set_of(said, promise.correction);
+    const auto said = corrected(one.said, promise.of_replayed);
+    const auto set = set_of(said, promise.of_replayed);
     sum += w;
     outlook.set_size += w * static_cast<double>(set.ids.size());
     outlook.entropy += w * entropy_of(said);

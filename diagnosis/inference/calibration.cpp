@@ -263,9 +263,10 @@ void learn_levels_of_right_sets(const std::vector<std::vector<Hypothesis>>& said
   }
 }
 
-Correction learn(const Cases& cases, double confidence, double misfit) {
+Correction learn(const Cases& cases, double confidence, const Misfit& misfit) {
   Correction found;
-  found.misfit = misfit, found.gate = kThresholds.lets_unknown_in;
+  found.misfit = {misfit.odds, misfit.power_of_replayed, misfit.power_of_replayed};
+  found.gate = kThresholds.lets_unknown_in;
   learn_temperatures(cases, found);
   for (const auto* one : cases)
     if (one->truth.size() < 2) found.misfits.push_back(left_by_plain(one->said));
@@ -342,7 +343,7 @@ double EffectReplay::seen_from() const {
   return least_told(runs, kThresholds.seen);
 }
 
-Promise promise_of(const std::vector<Replayed>& replayed, double confidence, double misfit) {
+Promise promise_of(const std::vector<Replayed>& replayed, double confidence, const Misfit& misfit) {
   Promise promise;
   promise.confidence = confidence;
   promise.correction.level = std::max(confidence, promise.correction.level);
@@ -354,7 +355,9 @@ Promise promise_of(const std::vector<Replayed>& replayed, double confidence, dou
   }
   if (cases.size() < kThresholds.least_cases || members.size() < 3) return promise;
   promise.cases = cases.size();
-  promise.correction = learn(cases, of_replayed(confidence), misfit);
+  promise.of_replayed = learn(cases, of_replayed(confidence), misfit);
+  promise.correction = promise.of_replayed;
+  promise.correction.misfit = misfit;
   std::vector<Reliability> bins(std::size(kBins) - 1);
   double magnitudes = 0.0, plain = 0.0;
   for (const int member : members) {

@@ -53,7 +53,8 @@ struct Promise {
   EffectReplay none;
   std::map<std::string, EffectReplay> effects;  ///< and pairs that were run
   OutsideReplay outside;
-  Correction correction;
+  Correction correction;   ///< of measured experiments
+  Correction of_replayed;  ///< of replayed runs: `unknown` by Misfit::power_of_replayed
 };
 
 /// From replayed runs with no effect, one, or a pair that was run. `confidence` in (0, 1), of measured sets;
@@ -68,6 +69,6 @@ struct Promise {
 /// need; upper limits at 95 %.
 ///
 /// Nothing is learnt from runs whose effect was left out; what becomes of them is counted.
-Promise promise_of(const std::vector<Replayed>& replayed, double confidence, double misfit = Priors{}.misfit);
+Promise promise_of(const std::vector<Replayed>& replayed, double confidence, const Misfit& misfit = {});
 
 }  // namespace pendular::diagnosis

@@ -40,7 +40,7 @@ void weigh_unknown_by_misfits(std::vector<Hypothesis>& said, const Correction& c
     if (h.id == kUnknown) continue;
     const auto more = all.end() - std::lower_bound(all.begin(), all.end(), h.chi_squared);
     const double share = (1.0 + static_cast<double>(more)) / (1.0 + static_cast<double>(all.size()));
-    odds += h.probability * correction.misfit * std::pow(share, -kThresholds.misfit_grows);
+    odds += h.probability * correction.misfit.odds * std::pow(share, -correction.misfit.power);
   }
   for (auto& h : said) h.probability = (h.id == kUnknown ? odds : h.probability) / (1.0 + odds);
 }

@@ -24,9 +24,9 @@ struct ToldFrom {
 /// stands, for a bank that is too small for one: wide.
 struct Correction {
   double temperature = 2.0;           ///< by which logarithms of evidence are divided
-  double temperature_of_pairs = 4.0;  ///< likewise, what a pair's has beyond the best of plainer()
+  double temperature_of_pairs = 2.0;  ///< likewise, what a pair's has beyond the best of plainer()
   std::vector<double> misfits = {};   ///< χ² that none or one effect leaves in replayed runs, ascending
-  double misfit = Priors{}.misfit;    ///< Priors::misfit
+  Misfit misfit = {};                 ///< the odds of `unknown` by them
   double level = 0.95;                ///< of the known explanations' probability, that a set holds
   std::map<std::string, double> levels = {};  ///< likewise, for explanations that need another one to get in
   double gate = 0.1;                          ///< P(unknown) from which it is in the set
@@ -49,7 +49,7 @@ double upper_limit(const Magnitude& magnitude, const Correction& correction);
 
 /// Probabilities by tempered evidence, and intervals widened about their means. Pairs that were not run are
 /// one explanation, kOtherPairs. Where misfits were learnt, `unknown` is judged by them: beside an
-/// explanation that leaves more than all but a share q of replayed runs its odds are misfit q^−1.6. What an
+/// explanation that leaves more than all but a share q of replayed runs it has odds (Misfit). What an
 /// unmodelled mechanism does is often done by two effects, but seldom by one: so it is one effect's residual
 /// that tells.
 std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction);

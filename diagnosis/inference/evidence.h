@@ -10,11 +10,19 @@
 
 namespace pendular::diagnosis {
 
+/// How the odds of `unknown` to an explanation grow with what it leaves: odds q^−power, of the share q of
+/// replayed runs that leave more.
+struct Misfit {
+  double odds = 0.06, power = 1.6;
+  double power_of_replayed = 0.53;  ///< of replayed runs, which leave more than measured experiments do: each
+                                    ///< has errors of the law that few of these have
+};
+
 /// Prior probabilities: P(none), P(unknown), and how much less a pair is expected than a single effect.
 struct Priors {
   double none = 0.2, unknown = 0.15, pairs = 0.15;
   double like_known = 0.5;  ///< of unknown mechanisms: that it does what an effect of the library would
-  double misfit = 0.06;     ///< odds of `unknown` to an explanation that leaves less than every replayed run
+  Misfit misfit = {};
 };
 
 struct Magnitude {

@@ -9,11 +9,11 @@ namespace pendular::diagnosis {
 struct Rules {
   Priors priors;
   double like_known_in_fields = 0.05;  ///< Priors::like_known where displacements were measured: hardly
-  double misfit_in_fields = 0.008;  ///< Priors::misfit likewise: of them replays leave what measured ones do
-  double confidence = 0.95;         ///< with which a set holds the truth, as the replay shows it
-  double excluded = 0.01;           ///< of an effect by itself, below which it is excluded
-  double separable = 9.0;           ///< Δ² from none below which an effect is hardly shown
-  int draws = 1;                    ///< of each run that is replayed
+  Misfit misfit_in_fields = {0.008, 1.6, 1.6};  ///< Priors::misfit likewise: replays leave what measured do
+  double confidence = 0.95;                     ///< with which a set holds the truth, as the replay shows it
+  double excluded = 0.01;                       ///< of an effect by itself, below which it is excluded
+  double separable = 9.0;                       ///< Δ² from none below which an effect is hardly shown
+  int draws = 1;                                ///< of each run that is replayed
 };
 
 /// Weighs every explanation of the gap and fills everything of a diagnosis that needs no further runs:

@@ -51,7 +51,7 @@ TEST(Calibration, LeavesRightProbabilitiesAlone) {
   EXPECT_LE(promise.correction.temperature, 1.25);
   for (const auto& bin : promise.reliability) {
     if (bin.cases < 50) continue;
-    EXPECT_NEAR(bin.said * (1.0 + Priors{}.misfit), bin.came_true, 0.08);  // none of them is unknown
+    EXPECT_NEAR(bin.said * (1.0 + Misfit{}.odds), bin.came_true, 0.08);  // none of them is unknown
   }
   EXPECT_NEAR(promise.theta_held, 0.9, 0.04);
   EXPECT_LT(promise.correction.widening_of_others, 1.15);
@@ -190,7 +190,7 @@ TEST(Calibration, PairsThatWereNotRunAreOneExplanation) {
 
 TEST(Calibration, WhatIsUnknownIsJudgedByWhatReplayedRunsLeave) {
   Correction correction;
-  correction.temperature = 1.0, correction.misfit = 0.1;
+  correction.temperature = 1.0, correction.misfit = {0.1, 1.5, 0.5};
   for (int k = 1; k < 100; ++k) correction.misfits.push_back(k);
   const auto odds = [&](double of_a, double of_b) {
     const auto said = corrected(
@@ -200,11 +200,11 @@ TEST(Calibration, WhatIsUnknownIsJudgedByWhatReplayedRunsLeave) {
     EXPECT_NEAR(of(said, "a") + of(said, "b") + unknown, 1.0, 1e-12);
     return unknown / (1.0 - unknown);
   };
-  const double of_one_in_twenty = 0.1 * std::pow(0.05, -kThresholds.misfit_grows);
+  const double of_one_in_twenty = 0.1 * std::pow(0.05, -1.5);
   EXPECT_NEAR(odds(0.5, 0.5), 0.1, 1e-12);  // all runs leave more
   EXPECT_NEAR(odds(95.5, 95.5), of_one_in_twenty, 1e-9);
   EXPECT_NEAR(odds(95.5, 0.5), (2.0 * of_one_in_twenty + 0.1) / 3.0, 1e-9);
-  EXPECT_NEAR(odds(1e9, 1e9), 0.1 * std::pow(0.01, -kThresholds.misfit_grows), 1e-9);
+  EXPECT_NEAR(odds(1e9, 1e9), 0.1 * std::pow(0.01, -1.5), 1e-9);
 }
 
 TEST(Calibration, APairHasWhatItsEffectsHaveAndItsOwnAtItsOwnTemperature) {
