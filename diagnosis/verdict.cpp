@@ -40,9 +40,9 @@ std::string cause(const Diagnosis& diagnosis) {
   if (best.id == kUnknown && named && named->magnitudes.size() == 2) {
     const auto besides = others(diagnosis, named->id);
     return fmt::format(
-        "The cause is not known: {} would explain much of the gap, probability {}, but more is left than "
-        "most "
-        "simulated cases of the library leave: something outside it is more probable, {}{}.",
+        "The cause is not known: {} would explain the gap, probability {}, but where one effect leaves as "
+        "much "
+        "the cause is more often outside the library, {}{}.",
         in_words(*named), percent(named->probability), probability,
         besides.empty() ? "" : "; not excluded: " + joined(besides, kListed));
   }

@@ -112,7 +112,7 @@ const char* why_unknown(const std::vector<Hypothesis>& said, const Correction& c
   const Hypothesis* unknown = said_of(said, kUnknown);
   if (!unknown || (unknown->probability <= correction.gate && unknown != &said.front())) return nullptr;
   return correction.misfits.empty() ? "what is left is not like the noise"
-                                    : "the explanations leave more than most replayed runs do";
+                                    : "one effect leaves more than in most replayed runs";
 }
 
 const Hypothesis* stand_in(const Hypothesis& h, const std::vector<Hypothesis>& said,

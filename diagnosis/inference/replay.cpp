@@ -79,10 +79,10 @@ bool known(const Changes& truth, const std::vector<Together>& together) {
          });
 }
 
-/// A diagnosis makes runs at pairs that are probable (leading_points()): in its replay they are as good as
-/// run.
+/// A diagnosis makes runs at pairs that may lead (leading_points()), after which those that were chance are
+/// less probable: in its replay the others are as good as run.
 std::vector<Hypothesis> as_if_run(std::vector<Hypothesis> said) {
-  for (auto& h : said) h.run = h.run || h.probability >= kThresholds.pair_leads;
+  for (auto& h : said) h.run = h.run || h.probability >= kThresholds.leads;
   return said;
 }
 

@@ -133,9 +133,9 @@ TEST(Verdict, WhereUnknownLeadsAPairThePairIsNamed) {
   const Diagnosis d = told({bare("unknown", 0.65), pair, missing(0.05)}, 3);
   EXPECT_TRUE(verdict_of(d).starts_with(
       "The cause is not known: bridges missing between near beads with bead friction other than stated "
-      "(missing_bridges+bead_friction), 20 % (18 to 21 %) and -0.20 (-0.26 to -0.15) would explain much of "
-      "the gap, probability 30 %, but more is left than most simulated cases of the library leave: something "
-      "outside it is more probable, 65 %; not excluded: bridges missing between near beads "
+      "(missing_bridges+bead_friction), 20 % (18 to 21 %) and -0.20 (-0.26 to -0.15) would explain the gap, "
+      "probability 30 %, but where one effect leaves as much the cause is more often outside the library, "
+      "65 %; not excluded: bridges missing between near beads "
       "(missing_bridges)."))
       << verdict_of(d);
 }
