@@ -33,7 +33,8 @@ std::string refusal(const std::string& what, const std::string& by) {
 }  // namespace
 
 TEST(Split, ReadsEveryCommittedFile) {
-  for (const char* name : {"development2", "development4", "sealed2", "sealed4", "sealed5", "sealed", "small"}) {
+  for (const char* name :
+       {"development2", "development4", "sealed2", "sealed4", "sealed5", "sealed", "small"}) {
     const Split split = read_split(
         fs::path(pendular::test::source_folder()) / "samples/blind" / (std::string(name) + ".toml"), {});
     EXPECT_EQ(split.name, name);
