@@ -41,8 +41,7 @@ std::string cause(const Diagnosis& diagnosis) {
     const auto besides = others(diagnosis, named->id);
     return fmt::format(
         "The cause is not known: {} would explain the gap, probability {}, but where one effect leaves as "
-        "much "
-        "the cause is more often outside the library, {}{}.",
+        "much the cause is more often outside the library, {}{}.",
         in_words(*named), percent(named->probability), probability,
         besides.empty() ? "" : "; not excluded: " + joined(besides, kListed));
   }

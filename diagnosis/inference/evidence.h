@@ -11,7 +11,7 @@
 namespace pendular::diagnosis {
 
 /// How the odds of `unknown` to an explanation grow with what it leaves: odds q^−power, of the share q of
-/// replayed runs that leave more.
+/// replayed runs that leave more. Fitted to development cases (docs/blind-scores.md).
 struct Misfit {
   double odds = 0.06, power = 1.6;
   double power_of_replayed = 0.53;  ///< of replayed runs, which leave more than measured experiments do: each
