@@ -10,6 +10,7 @@
 #include "blind/noise.h"
 #include "dem_core/bond_bodies.h"
 #include "effects/compress.h"
+#include "effects/list.h"
 #include "packing/bridges.h"
 
 namespace pendular::blind {
@@ -55,6 +56,17 @@ Packing loaded(const ScannedSpecimen& specimen) {
   return effects::reading(packing, specimen.test.sample, random_bits(specimen.plan.seed, kSecondScan) >> 1);
 }
 
+/// What necks differ by, as the sample states it, beside what they do in the test: where one stiffness stands
+/// for all bridges it has them alike, and yet a scan shows them as they are.
+double spread_beside(const TrueTest& test) {
+  double sum = 0.0, square = 0.0;
+  for (const auto& body : test.bodies) sum += body.neck_diameter;
+  const double count = std::max<double>(1.0, static_cast<double>(test.bodies.size())), mean = sum / count;
+  for (const auto& body : test.bodies) square += std::pow(body.neck_diameter - mean, 2) / count;
+  const double stated = 1e-6 * effects::spread_of_bridges(test.sample).diameter_sd;
+  return std::sqrt(std::max(0.0, stated * stated - square));
+}
+
 }  // namespace
 
 Table followed_beads(const ScannedSpecimen& specimen, double strain, nlohmann::ordered_json& told) {
@@ -95,16 +107,18 @@ std::vector<Bridge> measured_bridges(const ScannedSpecimen& specimen, const std:
     necks[{bonds[k].i, bonds[k].j}] = specimen.test.bodies[k].neck_diameter;
   const double cutoff = specimen.split.sample.bridges.cutoff * specimen.split.sample.beads.diameter;
   auto bridges = candidate_bridges(specimen.measured, cutoff);
+  const double own = spread_beside(specimen.test);
+  Noise neck_of_pair(specimen.plan.seed, "necks of a scan");  // the same in every scan
   for (auto& bridge : bridges) {
     const bool mistaken = noise.chance(kMistaken), undetermined = noise.chance(kUndetermined);
     const bool seen = standing.contains({bridge.i, bridge.j}) != mistaken;
-    const double error = noise.normal();
+    const double error = noise.normal(), apart = own * neck_of_pair.normal();
     bridge.state = undetermined ? BridgeState::undetermined : seen ? BridgeState::bridge : BridgeState::none;
     bridge.probability = undetermined ? 0.5 : seen ? kSure : 1.0 - kSure;
     if (bridge.state != BridgeState::bridge) continue;
     const auto neck = necks.find({bridge.i, bridge.j});
-    bridge.diameter = (neck != necks.end() ? neck->second : specimen.test.sample.bridges.diameter) *
-                      (1.0 + kNeckError * error);
+    const double mean = neck != necks.end() ? neck->second : specimen.test.sample.bridges.diameter;
+    bridge.diameter = (mean + apart) * (1.0 + kNeckError * error);
     bridge.sigma_diameter = misjudged * kNeckError * bridge.diameter;
   }
   told[name] = {{"relative_sigma", kNeckError}, {"stated_over_true_sigma", misjudged}};

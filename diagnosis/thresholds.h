@@ -40,7 +40,7 @@ struct DiagnosisThresholds {
   double law_reading = 0.5;                           ///< of what the other reading of a law does [engines]
   double least_followed = 0.5, most_followed = 1.75;  ///< shares of it that say that it holds [development]
   double followed_by = 3.0;      ///< standard deviations of the share, from which it is said [development]
-  double stated_error = 0.2;     ///< of stated standard errors of displacements [development]
+  double stated_error = 0.2;     ///< of stated standard errors of displacements and necks [development]
   double field_share = 0.15;     ///< error of a reading of a field, of what members scatter by [engines]
   double field_floor = 0.02;     ///< the same, of any reading [engines]
   double unstated_sigma = 1e-3;  ///< of displacements over the beads' diameter, where nothing is stated

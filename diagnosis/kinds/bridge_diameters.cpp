@@ -44,6 +44,7 @@ std::vector<Feature> landmarks(const Observation& observation, const Columns& co
 Columns perturbed(const Observation& observation, unsigned long seed) {
   Columns columns = observation.columns;
   draw_rows_again(columns, seed);
+  if (columns.contains("sigma_um")) misstate(columns.at("sigma_um"), seed);
   return columns;
 }
 

@@ -181,7 +181,25 @@ std::vector<Feature> landmarks(const Observation& observation, const Columns& co
   return list.take();
 }
 
-/// States change by their stated probability, necks by their stated errors.
+/// Necks drawn again with their errors, which are off by one factor.
+void draw_necks_again(Columns& columns, unsigned long seed) {
+  if (!columns.contains("bridge_diameter_um")) return;
+  auto& d = columns.at("bridge_diameter_um");
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < d.size(); ++k)
+    if (d[k] > 0.0) places.push_back(k);
+  for (const char* name : {"bridge_diameter_um", "sigma_bridge_diameter_um"}) {
+    if (!columns.contains(name)) continue;
+    auto& column = columns.at(name);
+    const std::vector<double> original = column;
+    for (const std::size_t k : places)
+      column[k] = original[places[static_cast<std::size_t>(random_uniform(seed, k) *
+                                                           static_cast<double>(places.size()))]];
+  }
+  if (columns.contains("sigma_bridge_diameter_um")) misstate(columns.at("sigma_bridge_diameter_um"), seed);
+}
+
+/// States change by their stated probability; necks are a sample, whose stated errors may be off.
 Columns perturbed(const Observation& observation, unsigned long seed) {
   Columns columns = observation.columns;
   auto& joined = columns["joined"];
@@ -191,11 +209,7 @@ Columns perturbed(const Observation& observation, unsigned long seed) {
                    wrong = joined[k] == 1.0 ? 1.0 - probability : probability;
       if (std::isfinite(joined[k]) && random_uniform(seed, k) < wrong) joined[k] = 1.0 - joined[k];
     }
-  if (columns.contains("bridge_diameter_um") && columns.contains("sigma_bridge_diameter_um"))
-    for (std::size_t k = 0; k < joined.size(); ++k)
-      if (columns["bridge_diameter_um"][k] > 0.0)
-        columns["bridge_diameter_um"][k] +=
-            columns.at("sigma_bridge_diameter_um")[k] * random_normal(seed + 1, k);
+  draw_necks_again(columns, seed + 1);
   return columns;
 }
 

@@ -10,6 +10,7 @@
 #include "base/line_fit.h"
 #include "base/quantile.h"
 #include "base/random.h"
+#include "diagnosis/thresholds.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -129,6 +130,11 @@ void draw_rows_again(Columns& columns, unsigned long seed) {
     for (std::size_t k = 0; k < column.size(); ++k)
       column[k] = rows[static_cast<std::size_t>(random_uniform(seed, k) * static_cast<double>(rows.size()))];
   }
+}
+
+void misstate(std::vector<double>& sigma, unsigned long seed) {
+  const double factor = std::exp(kThresholds.stated_error * random_normal(seed, 0x66616374));
+  for (double& one : sigma) one *= factor;
 }
 
 void check_strain(const Observation& observation, const std::string& column) {

@@ -52,6 +52,8 @@ void add_stated_noise(Columns& columns, const std::string& value, const std::str
                       unsigned long seed);
 /// Rows drawn again, with replacement.
 void draw_rows_again(Columns& columns, unsigned long seed);
+/// Stated errors, all off by one factor.
+void misstate(std::vector<double>& sigma, unsigned long seed);
 
 void check_strain(const Observation& observation, const std::string& column);
 /// That rows are in order of rising strain.

@@ -146,6 +146,7 @@ TEST(Scans, NetworksAreMeasuredWithTheStatedErrors) {
   Scanned specimen(specimen_of(6, 7));
   specimen.truth.packing = specimen.packing;
   specimen.truth.sample = specimen.split.sample;
+  specimen.truth.sample.bridges.diameter_sd = 0.0;
   // Every third pair has no bridge.
   std::set<std::pair<int, int>> standing;
   for (std::size_t k = 0; k < specimen.packing.bridges.size(); ++k)
@@ -167,6 +168,18 @@ TEST(Scans, NetworksAreMeasuredWithTheStatedErrors) {
   EXPECT_NEAR(undetermined / pairs, 0.02, 4.0 * std::sqrt(0.02 / pairs));
   EXPECT_NEAR(mistaken / pairs, 0.005, 4.0 * std::sqrt(0.005 / pairs));
   EXPECT_NEAR(std::sqrt(square / necks), 0.02, 0.003);
+  // Necks that differ without any effect do so in every scan.
+  specimen.truth.sample.bridges.diameter_sd = 6e-6;
+  const auto rest = measured_bridges(specimen.specimen(), "bridges_rest", standing, told),
+             load = measured_bridges(specimen.specimen(), "bridges_load", standing, told);
+  double of_one = 0.0, of_both = 0.0, pairs_of_necks = 0.0;
+  for (std::size_t k = 0; k < rest.size(); ++k) {
+    if (rest[k].state != BridgeState::bridge || load[k].state != BridgeState::bridge) continue;
+    const double at_rest = rest[k].diameter / 60e-6 - 1.0, at_load = load[k].diameter / 60e-6 - 1.0;
+    of_one += at_rest * at_rest, of_both += at_rest * at_load, pairs_of_necks += 1.0;
+  }
+  EXPECT_NEAR(std::sqrt(of_one / pairs_of_necks), std::hypot(0.1, 0.02), 0.006);
+  EXPECT_NEAR(std::sqrt(of_both / pairs_of_necks), 0.1, 0.006);
   // Another scan of it is mistaken elsewhere.
   const auto again = measured_bridges(specimen.specimen(), "bridges_load", standing, told);
   EXPECT_TRUE(std::any_of(bridges.begin(), bridges.end(), [&](const Bridge& bridge) {

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "base/random.h"
+#include "diagnosis/thresholds.h"
 #include "observations.h"
 
 namespace pendular::diagnosis {
@@ -53,6 +54,27 @@ TEST(Bridges, ErrorsOfNecksAreTakenOffTheirSpread) {
   const Observation necks = network([](int) { return 1.0; }, 7.0, 5.0);
   EXPECT_NEAR(value(necks, "neck_mean"), 74.0, 1.0);
   EXPECT_NEAR(value(necks, "neck_spread"), 7.0 / 74.0, 0.012);
+}
+
+// Of a sample of normal necks: the spread over the root of twice their number; where errors are taken off,
+// what these may be off by as well.
+TEST(Bridges, SpreadOfNecksIsKnownAsWellAsTheirErrors) {
+  const Observation exact = network([](int) { return 1.0; }, 7.0, 0.01);
+  EXPECT_NEAR(sigma(exact, "neck_spread"), 7.0 / 74.0 / std::sqrt(2.0 * kPairs), 0.0008);
+  EXPECT_NEAR(sigma(exact, "neck_mean"), 7.0 / 74.0 / std::sqrt(kPairs), 0.0012);
+  const Observation noisy = network([](int) { return 1.0; }, 7.0, 3.5);
+  const double variance = 7.0 * 7.0 + 3.5 * 3.5, of_number = variance / std::sqrt(2.0 * kPairs) / 7.0,
+               of_errors = kThresholds.stated_error * 3.5 * 3.5 / 7.0;
+  EXPECT_NEAR(sigma(noisy, "neck_spread"), std::hypot(of_number, of_errors) / 74.0, 0.002);
+}
+
+// A table whose errors are stated a quarter too small shows a spread that is not there: no more than its
+// standard deviations say.
+TEST(Bridges, MisstatedErrorsAreNoSpread) {
+  Observation necks = network([](int) { return 1.0; }, 0.0, 1.5);
+  for (double& one : necks.columns["sigma_bridge_diameter_um"]) one *= 0.75;
+  EXPECT_GT(value(necks, "neck_spread"), 0.008);
+  EXPECT_LT(value(necks, "neck_spread"), 4.0 * sigma(necks, "neck_spread"));
 }
 
 TEST(Bridges, StatesChangeAsOftenAsTheirProbabilitySays) {
