@@ -1,3 +1,5 @@
+#include <malloc.h>
+
 #include <algorithm>
 #include <memory>
 
@@ -20,6 +22,8 @@
 
 namespace pendular::cli {
 namespace {
+
+constexpr int kKept = 256 << 20;  // bytes of freed memory
 
 struct DiagnoseOptions {
   Common common;
@@ -96,6 +100,8 @@ void plan(const DiagnoseOptions& options, const diagnosis::Experiment& beliefs) 
 }
 
 void run(const DiagnoseOptions& options) {
+  // Memory that weighing frees is asked for again at once: giving it back in between costs a sixth of the time.
+  ::mallopt(M_TRIM_THRESHOLD, kKept);
   apply(options.common, {options.file});
   check(options.making);
   if (options.plan)

@@ -20,14 +20,14 @@ constexpr double kNegligible = 12.0;  // evidence of a pair, as a logarithm, bel
 constexpr double kLeading = 1.0;      // the same above it, from which a pair may displace a single effect
 constexpr double kLeastShare = 0.01, kStep = 1.25;  // of the magnitudes at which an effect is looked for
 
-Weighed none(const ReducedSpace& space, const ReducedGap& gap) {
+Weighed none(const ReducedSpace& space, const ReducedGap& gap, bool beside) {
   const Eigen::Index size = space.size();
   const std::vector<Expected> nothing = {{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size)}};
   const Predictions said = space.predict(nothing);
   const Fits fits = space.fit(gap, said);
   const double chi_squared = fits.chi_squared[0];
   return {{"none", fits.log_likelihood[0], 0.0, {}, chi_squared},
-          beside_unknown(space, gap, said, 0, chi_squared)};
+          beside ? beside_unknown(space, gap, said, 0, chi_squared) : 0.0};
 }
 
 /// Logarithm of the mean evidence of what is alike before any data.
@@ -36,16 +36,19 @@ double mean_of(const std::vector<double>& logs) {
 }
 
 /// Something beside what is known, or, by chance, something that does what a known effect would.
-Hypothesis unknown(const std::vector<Weighed>& known, double like_known) {
+Hypothesis unknown(const std::vector<Weighed>& known, const Priors& priors) {
+  const Hypothesis& none = known.front().hypothesis;
+  if (priors.unknown <= 0.0) return {"unknown", none.log_evidence, 0.0, {}, none.chi_squared};
   std::vector<double> beside, like;
   for (const auto& one : known) {
     beside.push_back(one.beside_unknown);
     if (one.hypothesis.magnitudes.size() == 1) like.push_back(one.hypothesis.log_evidence);
   }
   const double other = mean_of(beside);
-  Hypothesis found{"unknown", other, 0.0, {}, known.front().hypothesis.chi_squared};
+  Hypothesis found{"unknown", other, 0.0, {}, none.chi_squared};
   if (!like.empty())
-    found.log_evidence = log_sum({other + std::log(1.0 - like_known), mean_of(like) + std::log(like_known)});
+    found.log_evidence =
+        log_sum({other + std::log(1.0 - priors.like_known), mean_of(like) + std::log(priors.like_known)});
   return found;
 }
 
@@ -126,14 +129,15 @@ std::vector<std::vector<Hypothesis>> Weigher::of_singles(const std::vector<Reduc
     grids[e].emplace(std::vector{reduced_[e]}, std::nullopt, space_);
     fitted[e] = grids[e]->fit(gaps);
   });
+  const bool beside = priors_.unknown > 0.0;
   std::vector<std::vector<Hypothesis>> all(gaps.size());
   for_blocks(gaps.size(), 1, [&](std::size_t k, std::size_t) {
-    std::vector<Weighed> known = {none(space_, gaps[k])};
+    std::vector<Weighed> known = {none(space_, gaps[k], beside)};
     double best = known.front().hypothesis.log_evidence;
     for (const auto& of_effect : fitted) best = std::max(best, MagnitudeGrid::evidence_of(of_effect[k]));
     for (std::size_t e = 0; e < grids.size(); ++e)
-      known.push_back(grids[e]->weigh(gaps[k], std::move(fitted[e][k]), best - negligible));
-    all[k].push_back(unknown(known, priors_.like_known));
+      known.push_back(grids[e]->weigh(gaps[k], std::move(fitted[e][k]), best - negligible, beside));
+    all[k].push_back(unknown(known, priors_));
     for (auto& one : known) all[k].push_back(std::move(one.hypothesis));
   });
   return all;
@@ -165,8 +169,8 @@ void Weigher::add_pairs(const std::vector<ReducedGap>& gaps, double negligible,
                                                    : std::min(negligible, kNegligible);
     for (std::size_t n = 0; n < places.size(); ++n) {
       auto& found = of_pairs[p][places[n]];
-      found =
-          grid.weigh(theirs[n], std::move(fitted[n]), best_of(all[places[n]]).log_evidence - less).hypothesis;
+      const double least = best_of(all[places[n]]).log_evidence - less;
+      found = grid.weigh(theirs[n], std::move(fitted[n]), least, false).hypothesis;
       found->run = run.has_value();
     }
   });

@@ -64,7 +64,7 @@ enum class Pairs { all, leading };
 ///
 /// `unknown` is something beside what is known: none or a single effect leaves a residual 1.5, 2.5, 4 or 7
 /// times as large as noise does, within the span, outside it, or both; or (Priors::like_known) something that
-/// does what a known effect would do.
+/// does what a known effect would do. Where it has no prior probability it is not weighed.
 std::vector<Hypothesis> weigh(const Gap& gap, const std::vector<Signature>& signatures,
                               const std::vector<Together>& together = {}, const Priors& priors = {},
                               Pairs pairs = Pairs::all);

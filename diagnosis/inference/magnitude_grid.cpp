@@ -164,7 +164,8 @@ double MagnitudeGrid::evidence_of(const std::vector<Fitted>& fitted) {
   return log_sum(weights);
 }
 
-Weighed MagnitudeGrid::weigh(const ReducedGap& gap, std::vector<Fitted> fitted, double least) const {
+Weighed MagnitudeGrid::weigh(const ReducedGap& gap, std::vector<Fitted> fitted, double least,
+                             bool beside) const {
   std::deque<std::vector<Batch>> finer;  // outlives what points into it
   const int rounds = evidence_of(fitted) >= least ? kRefined : 0;
   for (int round = 0; round < rounds && !fitted.empty(); ++round) {
@@ -188,16 +189,16 @@ Weighed MagnitudeGrid::weigh(const ReducedGap& gap, std::vector<Fitted> fitted, 
   Weighed found;
   Hypothesis& hypothesis = found.hypothesis;
   hypothesis.chi_squared = std::numeric_limits<double>::infinity();
-  std::vector<double> beside = {kNever};
+  std::vector<double> wider = {kNever};
   for (const auto& one : fitted) {
-    if (reduced_.size() == 1)  // pairs have no part in it
+    if (beside)
       for (std::size_t k = 0; k < kScales; ++k)
-        beside.push_back(
+        wider.push_back(
             one.place().log_prior + std::log(kScaleWeights[k]) +
             beside_unknown(space_, gap, one.batch->predictions[k], one.lane, one.chi_squareds[k]));
     hypothesis.chi_squared = std::min(hypothesis.chi_squared, one.chi_squareds[kScales / 2]);
   }
-  hypothesis.log_evidence = evidence_of(fitted), found.beside_unknown = log_sum(beside);
+  hypothesis.log_evidence = evidence_of(fitted), found.beside_unknown = log_sum(wider);
   for (std::size_t e = 0; e < reduced_.size(); ++e) {
     hypothesis.id += (e > 0 ? "+" : "") + reduced_[e].id;
     hypothesis.magnitudes.push_back(magnitude(e, fitted, hypothesis.log_evidence));

@@ -38,7 +38,8 @@ class MagnitudeGrid {
   static double evidence_of(const std::vector<Fitted>& fitted);
 
   /// Goes on from the fits to a gap. Cells are cut finer only where their evidence comes to this logarithm.
-  Weighed weigh(const ReducedGap& gap, std::vector<Fitted> fitted, double least) const;
+  /// `beside`: also beside something unknown.
+  Weighed weigh(const ReducedGap& gap, std::vector<Fitted> fitted, double least, bool beside) const;
 
  private:
   static constexpr std::size_t kScales = 5;  // of the standard deviations of a response's own covariance

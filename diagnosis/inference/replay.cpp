@@ -136,7 +136,8 @@ std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan
 }  // namespace
 
 std::vector<Replayed> replay(const Experiment& experiment, const BankPlan& plan, const BankFeatures& features,
-                             const Priors& priors, int draws, LeftOut left_out) {
+                             Priors priors, int draws, LeftOut left_out) {
+  priors.unknown = 0.0;  // judged by what replayed runs leave (promise_of())
   const auto chosen = left_out == LeftOut::effects ? runs_to_leave_out(plan) : std::vector<std::size_t>{};
   const auto members = features.members();
   std::vector<std::vector<Replayed>> of_members(members.size());

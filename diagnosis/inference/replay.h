@@ -25,12 +25,12 @@ enum class LeftOut { nothing, effects };
 /// number of threads. Pairs are looked for as in a diagnosis, among those of the most probable single effect;
 /// a run of a pair that other members were not run with is none of them. `draws`: of each run. Those without
 /// an effect, runs of believed inputs and of readings of the law among them, are about as large a share as
-/// none is probable a priori (Priors).
+/// none is probable a priori (Priors). `unknown` is not weighed: promise_of() judges it by what they leave.
 ///
 /// LeftOut::effects: three runs of each effect, at a third, two thirds and the end of their order by
 /// magnitude, are diagnosed once more by a library without the effect, as if it were a mechanism outside the
 /// library. Only those that the library would see (Weigher::absent).
 std::vector<Replayed> replay(const Experiment& experiment, const BankPlan& plan, const BankFeatures& features,
-                             const Priors& priors, int draws, LeftOut left_out = LeftOut::nothing);
+                             Priors priors, int draws, LeftOut left_out = LeftOut::nothing);
 
 }  // namespace pendular::diagnosis
