@@ -100,7 +100,8 @@ void plan(const DiagnoseOptions& options, const diagnosis::Experiment& beliefs) 
 }
 
 void run(const DiagnoseOptions& options) {
-  // Memory that weighing frees is asked for again at once: giving it back in between costs a sixth of the time.
+  // Memory that weighing frees is asked for again at once: to give it back in between costs a sixth of the
+  // time.
   ::mallopt(M_TRIM_THRESHOLD, kKept);
   apply(options.common, {options.file});
   check(options.making);
