@@ -183,20 +183,15 @@ std::vector<Feature> landmarks(const Observation& observation, const Columns& co
 
 /// Necks drawn again with their errors, which are off by one factor.
 void draw_necks_again(Columns& columns, unsigned long seed) {
-  if (!columns.contains("bridge_diameter_um")) return;
-  auto& d = columns.at("bridge_diameter_um");
-  std::vector<std::size_t> places;
-  for (std::size_t k = 0; k < d.size(); ++k)
-    if (d[k] > 0.0) places.push_back(k);
-  for (const char* name : {"bridge_diameter_um", "sigma_bridge_diameter_um"}) {
-    if (!columns.contains(name)) continue;
-    auto& column = columns.at(name);
-    const std::vector<double> original = column;
-    for (const std::size_t k : places)
-      column[k] = original[places[static_cast<std::size_t>(random_uniform(seed, k) *
-                                                           static_cast<double>(places.size()))]];
-  }
-  if (columns.contains("sigma_bridge_diameter_um")) misstate(columns.at("sigma_bridge_diameter_um"), seed);
+  const auto d = columns.find("bridge_diameter_um"), sigma = columns.find("sigma_bridge_diameter_um");
+  if (d == columns.end()) return;
+  std::vector<std::size_t> rows;
+  for (std::size_t k = 0; k < d->second.size(); ++k)
+    if (d->second[k] > 0.0) rows.push_back(k);
+  draw_again(d->second, rows, seed);
+  if (sigma == columns.end()) return;
+  draw_again(sigma->second, rows, seed);
+  misstate(sigma->second, seed);
 }
 
 /// States change by their stated probability; necks are a sample, whose stated errors may be off.

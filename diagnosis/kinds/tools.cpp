@@ -123,12 +123,19 @@ void add_stated_noise(Columns& columns, const std::string& value, const std::str
     if (std::isfinite(logs[k])) values[k] = std::exp(logs[k]);
 }
 
+void draw_again(std::vector<double>& column, const std::vector<std::size_t>& rows, unsigned long seed) {
+  const std::vector<double> original = column;
+  for (const std::size_t k : rows) {
+    const double drawn = random_uniform(seed, k) * static_cast<double>(rows.size());
+    column[k] = original[rows[static_cast<std::size_t>(drawn)]];
+  }
+}
+
 void draw_rows_again(Columns& columns, unsigned long seed) {
-  const Columns original = columns;
   for (auto& [name, column] : columns) {
-    const auto& rows = original.at(name);
-    for (std::size_t k = 0; k < column.size(); ++k)
-      column[k] = rows[static_cast<std::size_t>(random_uniform(seed, k) * static_cast<double>(rows.size()))];
+    std::vector<std::size_t> rows(column.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    draw_again(column, rows, seed);
   }
 }
 

@@ -50,7 +50,9 @@ void add_noise(std::vector<double>& values, const std::vector<double>& sigma, un
 /// Positive values by their own sigma column, where both are there: by factors, so that they stay positive.
 void add_stated_noise(Columns& columns, const std::string& value, const std::string& sigma,
                       unsigned long seed);
-/// Rows drawn again, with replacement.
+/// Values of some rows drawn again among them, with replacement; alike for every column of a seed.
+void draw_again(std::vector<double>& column, const std::vector<std::size_t>& rows, unsigned long seed);
+/// All rows drawn again.
 void draw_rows_again(Columns& columns, unsigned long seed);
 /// Stated errors, all off by one factor.
 void misstate(std::vector<double>& sigma, unsigned long seed);
