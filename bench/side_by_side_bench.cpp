@@ -1,5 +1,5 @@
-// Runs of a bank side by side in the lanes of a register, beside one run alone on one thread, in turns: a
-// small packing whose beads are moved by 0.1 um and whose bonds differ in stiffness from run to run, under
+// Runs of a bank side by side in the lanes of a register, beside one run alone on one thread, in turns: two
+// small packings whose beads are moved by 0.1 um and whose bonds differ in stiffness from run to run, under
 // load, pairs listed anew as they come.
 //
 //   cmake --build --preset bench --target side_by_side_bench && build-bench/bench/side_by_side_bench
@@ -32,14 +32,14 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Each compressed by half a per cent.
-std::vector<Simulation> loaded_bank() {
+/// Each compressed by half a per cent; `share` of sample A's volume.
+std::vector<Simulation> loaded_bank(double share) {
   Sample sample;
   sample.bridges.normal_stiffness = 5760.0;
   sample.bridges.tangential_stiffness = 325.0;
   sample.contact.bond_friction_limit = false;
-  sample.specimen.diameter *= std::cbrt(0.17);
-  sample.specimen.height *= std::cbrt(0.17);
+  sample.specimen.diameter *= std::cbrt(share);
+  sample.specimen.height *= std::cbrt(share);
   Packing packing = generate_packing(sample, 1);
   packing.bridges = candidate_bridges(packing.beads, sample.bridges.cutoff * sample.beads.diameter);
   packing = dem_core::realise(packing, sample, 1);
@@ -97,7 +97,9 @@ void compare(const std::vector<Simulation>& loaded, const std::string& instructi
 int main() {
   using namespace pendular;
   set_threads(1);
-  const auto loaded = loaded_bank();
   const auto sets = dem_core::instruction_sets();
-  for (std::size_t k = 0; k < std::min<std::size_t>(2, sets.size()); ++k) compare(loaded, sets[k]);
+  for (const double share : {0.08, 0.17}) {
+    const auto loaded = loaded_bank(share);
+    for (std::size_t k = 0; k < std::min<std::size_t>(2, sets.size()); ++k) compare(loaded, sets[k]);
+  }
 }

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include <hwy/cache_control.h>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "dem_core/step/side_by_side_kernels.cpp"
 #include "hwy/foreach_target.h"
@@ -77,6 +79,17 @@ HWY_INLINE bool all_apart(const SideBead& i, const SideBead& j, const ContactBlo
   return apart;
 }
 
+/// Pairs from one whose second bead is asked for to the one that is advanced. First beads follow each other
+/// in memory, as pairs do; second ones do not, and the processor does not foresee them.
+constexpr std::size_t kAhead = 3;
+
+template <typename T>
+HWY_INLINE void fetch(const T& block) {
+  constexpr std::size_t kLine = 64;
+  for (std::size_t at = 0; at < sizeof(T); at += kLine)
+    hwy::Prefetch(reinterpret_cast<const char*>(&block) + at);
+}
+
 template <PairKind kind, bool bending>
 void advance(SidePairs& pairs, SideBeads& beads, const SideLaw& law, LawParts parts, SideTotals& totals,
              std::vector<SideBreak>& breaking) {
@@ -95,11 +108,13 @@ void advance(SidePairs& pairs, SideBeads& beads, const SideLaw& law, LawParts pa
   [[maybe_unused]] std::uint8_t* const were_apart = pairs.apart.data();
   SideBead* const motion = beads.motion.data();
   SideSums* const sums = beads.sums.data();
-  for (std::size_t p = 0; p < pairs.ends.size(); ++p) {
+  const std::size_t size = pairs.ends.size();
+  for (std::size_t p = 0; p < size; ++p) {
     if (kind == PairKind::loose) {
       if (were_apart[p] == kAllLanes && all_apart(motion[ends[p].i], motion[ends[p].j], contacts[p]))
         continue;
     }
+    if (p + kAhead < size) fetch(motion[ends[p + kAhead].j]), fetch(sums[ends[p + kAhead].j]);
     for (std::size_t part = 0, lane = 0; part < kParts; ++part, lane += kLanes) {
       const SideBead &bead_i = motion[ends[p].i], &bead_j = motion[ends[p].j];
       PairMotion<Lanes> moving;
