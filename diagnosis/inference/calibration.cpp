@@ -10,6 +10,7 @@
 
 #include "diagnosis/inference/log_sum.h"
 #include "diagnosis/thresholds.h"
+#include "effects/list.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -219,26 +220,41 @@ void learn_what_is_told(const std::vector<std::vector<Hypothesis>>& said, const 
     if (by_slips(counts.first, counts.second) > kThresholds.by_slip) found.untold_pairs.insert(id);
 }
 
-/// Widenings of intervals of θ and of upper limits.
-void learn_magnitudes(const Cases& cases, Correction& found) {
-  std::vector<double> all, limits;
+bool on_tables_of_beads(const std::string& id) {
+  const auto& all = effects::all_effects();
+  return std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.id == id && one.beads; });
+}
+
+/// Widenings of intervals of θ. Effects on tables of beads have their own common one: that measured beads are
+/// only nearly found again (kThresholds.error_of_beads) is not so of replayed ones, whose magnitudes come out
+/// too small by it.
+void learn_widenings(const Cases& cases, Correction& found) {
+  std::map<bool, std::vector<double>> alike;
   std::map<std::string, std::vector<double>> widenings;
   for (const auto* one : cases) {
     if (one->truth.size() != 1) continue;
     const Hypothesis* truth = said_of(one->said, truth_of(*one));
     if (!truth) continue;
-    all.push_back(needed_widening(truth->magnitudes.front(), one->truth.begin()->second));
-    widenings[truth->id].push_back(all.back());
+    const double needed = needed_widening(truth->magnitudes.front(), one->truth.begin()->second);
+    alike[on_tables_of_beads(truth->id)].push_back(needed);
+    widenings[truth->id].push_back(needed);
   }
-  if (all.empty()) return;
-  found.widening_of_others = std::max(1.0, conformal(std::move(all), kThresholds.of_theta));
+  std::map<bool, double> common;
+  for (auto& [on_tables, values] : alike)
+    common[on_tables] = std::max(1.0, conformal(std::move(values), kThresholds.of_theta));
+  if (common.contains(false)) found.widening_of_others = common[false];
   for (auto& [id, values] : widenings) {
     const double n = static_cast<double>(values.size()),
-                 own = std::max(0.3, conformal(std::move(values), kThresholds.of_theta));
-    found.widening[id] = std::max(
-        1.0, std::exp((n * std::log(own) + kThresholds.worth_of_all * std::log(found.widening_of_others)) /
-                      (n + kThresholds.worth_of_all)));
+                 own = std::max(0.3, conformal(std::move(values), kThresholds.of_theta)),
+                 log_common = std::log(common[on_tables_of_beads(id)]);
+    found.widening[id] = std::max(1.0, std::exp((n * std::log(own) + kThresholds.worth_of_all * log_common) /
+                                                (n + kThresholds.worth_of_all)));
   }
+}
+
+/// Widening of upper limits, which follow from intervals.
+void learn_limits(const Cases& cases, Correction& found) {
+  std::vector<double> limits;
   found.widening_of_limits = 1.0;
   for (const auto* one : cases) {
     if (one->truth.size() != 1) continue;
@@ -247,7 +263,9 @@ void learn_magnitudes(const Cases& cases, Correction& found) {
       limits.push_back(std::fabs(one->truth.begin()->second) /
                        std::max(1e-12, upper_limit(truth->magnitudes.front(), found)));
   }
-  found.widening_of_limits = std::max(1.0, conformal(std::move(limits), kThresholds.of_limits));
+  found.widening_of_limits = limits.empty()
+                                 ? Correction{}.widening_of_limits
+                                 : std::max(1.0, conformal(std::move(limits), kThresholds.of_limits));
 }
 
 /// Levels at which replayed sets are right as often as asked for. Where something stands for the truth that
@@ -276,7 +294,8 @@ Correction learn(const Cases& cases, double confidence, const Misfit& misfit) {
   learn_levels(said, cases, confidence, found);
   learn_what_is_told(said, cases, found);
   learn_levels_of_right_sets(said, cases, confidence, found);
-  learn_magnitudes(cases, found);
+  learn_widenings(cases, found);
+  learn_limits(cases, found);
   return found;
 }
 

@@ -297,6 +297,24 @@ TEST(Calibration, RunsWhoseEffectWasLeftOutAreCountedAndTeachNothing) {
   EXPECT_EQ(known.outside.cases, 0u);
 }
 
+TEST(Calibration, EffectsOnTablesOfBeadsWidenNoOthers) {
+  auto all = runs(1.0, 1.0, 1);
+  for (auto& one : all) {
+    if (one.truth.contains("c")) one.truth = {{"position_error", 1.0}};
+    for (auto& h : one.said)
+      if (h.id == "c") {
+        h.id = "position_error";
+        auto& [mean, interval] = h.magnitudes.front();
+        mean -= 5.0, interval.first -= 5.0, interval.second -= 5.0;
+      }
+  }
+  const Promise promise = promise_of(all, 0.95);
+  EXPECT_GT(promise.correction.widening.at("position_error"), 3.0);
+  for (const char* id : {"a", "b"}) EXPECT_LT(promise.correction.widening.at(id), 1.3) << id;
+  EXPECT_LT(promise.correction.widening_of_others, 1.2);
+  EXPECT_NEAR(promise.theta_held, 0.9, 0.04);
+}
+
 TEST(Calibration, TooFewRunsPromiseNothingAndWiden) {
   auto few = runs(1.0, 1.0, 5);
   few.resize(20);
