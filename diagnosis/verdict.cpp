@@ -25,6 +25,11 @@ std::vector<std::string> others(const Diagnosis& diagnosis, const std::string& b
   return names;
 }
 
+std::ptrdiff_t count_of_significant(const Diagnosis& diagnosis) {
+  const auto& rows = diagnosis.gap.rows;
+  return std::count_if(rows.begin(), rows.end(), [](const GapRow& row) { return row.significant; });
+}
+
 std::string cause(const Diagnosis& diagnosis) {
   const Explanation& best = diagnosis.explanations.front();
   const auto rest = others(diagnosis);
@@ -46,8 +51,13 @@ std::string cause(const Diagnosis& diagnosis) {
         besides.empty() ? "" : "; not excluded: " + joined(besides, kListed));
   }
   if (best.id == kUnknown)
-    return fmt::format("The cause is not known: no effect of the library explains the gap, probability {}{}.",
-                       probability, rest.empty() ? "" : "; not excluded: " + joined(rest, kListed));
+    return fmt::format(
+        "The cause is not known: {}, probability {}{}.",
+        count_of_significant(diagnosis) > 0
+            ? "no effect of the library explains the gap"
+            : "no feature by itself differs by more than the noise, but together they differ "
+              "as hardly any simulated experiment does, so that the cause is outside the library",
+        probability, rest.empty() ? "" : "; not excluded: " + joined(rest, kListed));
   if (best.id == kOtherPairs)
     return fmt::format(
         "The cause is not known: two effects at once, or something like two, explain the gap best, "
@@ -109,8 +119,7 @@ std::string difference_of(const GapRow& row) {
 
 std::string where(const Diagnosis& diagnosis) {
   const auto& rows = diagnosis.gap.rows;
-  const auto count =
-      std::count_if(rows.begin(), rows.end(), [](const GapRow& row) { return row.significant; });
+  const std::ptrdiff_t count = count_of_significant(diagnosis);
   if (count == 0)
     return fmt::format("None of {} features differs by more than the noise (all |z| below {:.1f}).",
                        rows.size(), diagnosis.gap.threshold);

@@ -98,6 +98,15 @@ TEST(Verdict, SaysPlainlyWhenItDoesNotKnow) {
   EXPECT_FALSE(says(told({missing(0.7), tilt}, 2), "not known"));
 }
 
+TEST(Verdict, UnknownIsNoGapWhereNoFeatureDiffers) {
+  Diagnosis d = told({bare("unknown", 0.78), bare("none", 0.1)}, 2);
+  for (auto& row : d.gap.rows) row.significant = false;
+  EXPECT_TRUE(verdict_of(d).starts_with("The cause is not known: no feature by itself differs"))
+      << verdict_of(d);
+  EXPECT_TRUE(says(d, "probability 78 %; not excluded: no effect (none).")) << verdict_of(d);
+  EXPECT_FALSE(says(d, "explains the gap")) << verdict_of(d);
+}
+
 TEST(Verdict, SaysThatPairsWereNotRunWhereTheyExplainMost) {
   const Diagnosis alone = told({bare(kOtherPairs, 0.8), bare("unknown", 0.2)}, 1);
   EXPECT_TRUE(
