@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "base/random.h"
 #include "diagnosis/experiment/experiment.h"
 #include "followed.h"
 #include "packing/tables.h"
@@ -339,6 +340,18 @@ TEST(GoodObservation, TurnedAndShiftedAsAWholeIsNoMistake) {
   const auto turned = [](const Vec3& p) -> Vec3 { return Vec3(-p.y(), p.x(), p.z()) + Vec3(3e-5, 0, -2e-5); };
   const std::string table = moved([&](Followed& row) { row.motion = turned(row.at + row.motion) - row.at; });
   EXPECT_TRUE(read(folder, "displacements", table, kBeads).warnings.empty());
+}
+
+// Unreported errors of places, in both scans, are larger than what neighbours move against each other.
+TEST(GoodObservation, PlacesWorseThanStatedAreAWarning) {
+  ScratchFolder folder;
+  std::uint64_t next = 0;
+  const std::string table = moved([&](Followed& row) {
+    for (int axis = 0; axis < 3; ++axis) row.motion[axis] += 9e-6 * random_normal(1, next++);
+  });
+  const auto warnings = read(folder, "displacements", table, kBeads).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("places worse than stated"), std::string::npos) << warnings[0];
 }
 
 TEST(GoodObservation, BreaksOfEachRowAreTakenWhereThatIsSaid) {
