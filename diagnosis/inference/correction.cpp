@@ -151,7 +151,7 @@ AmbiguitySet set_of(const std::vector<Hypothesis>& said, const Correction& corre
     }
     const auto own = correction.levels.find(h.id);
     const double level = own == correction.levels.end() ? correction.level : own->second;
-    const bool matters = !first || h.probability >= kThresholds.beside_unknown;
+    const bool matters = h.probability >= kThresholds.least_in_set || &h == &said.front();
     if (held <= level && matters && !stand_in(h, said, correction)) set.ids.push_back(h.id);
     held += h.probability / known;
   }

@@ -240,6 +240,18 @@ TEST(Calibration, PairsThatFitByChanceAreTempered) {
   EXPECT_LE(little.temperature_of_pairs, much.temperature_of_pairs);
 }
 
+// Where runs were told as something else without doubt, no level short of one holds them.
+TEST(Calibration, WhatIsNotProbableIsInNoSetAtAnyLevel) {
+  Correction correction;
+  correction.level = 1.0;
+  const std::vector<Hypothesis> said = {{"a", 0.0, 0.9, {}, 0.0},
+                                        {"b", 0.0, 0.08, {}, 0.0},
+                                        {"none", 0.0, 0.02, {}, 0.0},
+                                        {"c", 0.0, 0.001, {}, 0.0}};
+  EXPECT_EQ(set_of(said, correction).ids, (std::vector<std::string>{"a", "b", "none"}));
+  EXPECT_EQ(set_of({{"a", 0.0, 0.005, {}, 0.0}}, correction).ids, (std::vector<std::string>{"a"}));
+}
+
 TEST(Calibration, PairsThatWereNotRunAreInNoSetButFirst) {
   Correction correction;
   correction.level = 0.6, correction.gate = 0.3;
