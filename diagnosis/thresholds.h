@@ -71,7 +71,7 @@ struct DiagnosisThresholds {
   double by_slip = 0.05;         ///< level of the test that a pair is told from its effects [definition]
   double worth_of_all = 10.0;    ///< runs that what all effects need is worth beside an effect's own [replay]
   double lets_unknown_in = 0.3;  ///< P(unknown) from which it is in a set [development]
-  double least_in_set = 0.01;  ///< probability from which an explanation is in a set [development]
+  double least_in_set = 0.01;    ///< probability from which an explanation is in a set [development]
   double least_in_cluster = 40.0;  ///< runs [replay]
   double less_in_cluster = 0.05;   ///< confidence that one cluster may have less than all together [replay]
   double least_cases = 60.0;       ///< from which a replay is believed [Calibration]
