@@ -55,8 +55,8 @@ std::string cause(const Diagnosis& diagnosis) {
         "The cause is not known: {}, probability {}{}.",
         count_of_significant(diagnosis) > 0
             ? "no effect of the library explains the gap"
-            : "no feature by itself differs by more than the noise, but together they differ "
-              "as hardly any simulated experiment does, so that the cause is outside the library",
+            : "no feature by itself differs by more than the noise, but together they differ as hardly any "
+              "simulated experiment does; something outside the library",
         probability, rest.empty() ? "" : "; not excluded: " + joined(rest, kListed));
   if (best.id == kOtherPairs)
     return fmt::format(

@@ -201,7 +201,8 @@ void check_motion(const Sample& believed, const Observation& observation, const 
   if (rms < kSeen * sigma) return;
   const AffineMotion affine = affine_part(places, motion);
   const bool unlike = !observation.beads.empty() && unlikeness(beads_in(observation, rows), motion) > kAlike;
-  if (unlike && affine.share < kAffine + kByChance / static_cast<double>(motion.size()))
+  const double least_share = kAffine + kByChance / static_cast<double>(motion.size());
+  if (unlike && !(affine.share >= least_share))
     bad_input(
         "{}: found neighbours that move as differently as any two beads at strain {:.4g}, expected the "
         "motion of the "
@@ -214,11 +215,10 @@ void check_motion(const Sample& believed, const Observation& observation, const 
         "(turned, mirrored, or of the other sign?)",
         file, std::acos(affine.approach) * 180.0 / M_PI, strain);
   if (unlike)
-    warnings.push_back(
-        fmt::format("{}: at strain {:.4g} neighbours move nearly as differently as any two beads, more than "
-                    "stated errors of {:.2g} um "
-                    "explain: are places worse than stated, or beads of another specimen?",
-                    file, strain, kUm * sigma));
+    warnings.push_back(fmt::format(
+        "{}: at strain {:.4g} neighbours move nearly as differently as any two beads, more than "
+        "errors of {:.2g} um explain: are places worse than stated, or beads of another specimen?",
+        file, strain, kUm * sigma));
 }
 
 void check(const Sample& believed, Observation& observation, std::vector<std::string>& warnings) {

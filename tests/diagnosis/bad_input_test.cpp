@@ -342,7 +342,7 @@ TEST(GoodObservation, TurnedAndShiftedAsAWholeIsNoMistake) {
   EXPECT_TRUE(read(folder, "displacements", table, kBeads).warnings.empty());
 }
 
-// Unreported errors of places, in both scans, are larger than what neighbours move against each other.
+// Errors of places that are not stated may be larger than what neighbours move against each other.
 TEST(GoodObservation, PlacesWorseThanStatedAreAWarning) {
   ScratchFolder folder;
   std::uint64_t next = 0;
