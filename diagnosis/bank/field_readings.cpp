@@ -8,8 +8,11 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/random.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/thresholds.h"
+#include "effects/compress.h"
+#include "effects/list.h"
 #include "packing/bridges.h"
 #include "packing/tables.h"
 
@@ -17,6 +20,7 @@ namespace pendular::diagnosis {
 namespace {
 
 constexpr unsigned long kSeedOfRuns = 1000;  // of their noise
+constexpr std::uint64_t kSeedOfErrors = 0x706c61636573;
 constexpr int kHeldBy = 3;  // bonds: on two, a bead turns about the line through them without resistance
 
 /// Beads that at least three pairs hold, of which the same is true: how the others move, damping decides.
@@ -94,6 +98,55 @@ Eigen::VectorXd joined(const std::vector<Eigen::VectorXd>& parts) {
   return all;
 }
 
+/// Mean square of how far neighbours part along an axis, µm², in one scan's part of a field.
+double parting(const FollowedBeads& scan, const Eigen::VectorXd& part) {
+  const auto pairs = candidate_bridges(scan.beads, scan.cutoff);
+  double sum = 0.0;
+  for (const auto& pair : pairs)
+    sum += (part.segment<3>(3 * pair.j) - part.segment<3>(3 * pair.i)).squaredNorm();
+  return pairs.empty() ? 0.0 : sum / (3.0 * static_cast<double>(pairs.size()));
+}
+
+/// Standard error of a component of a displacement, beyond the stated one, that the measured ones may have in
+/// each scan, µm: that of single beads, by what neighbours part more than as believed.
+std::vector<double> unstated_errors(const FieldBank& bank, const std::vector<DesignPoint>& points) {
+  std::vector<double> found;
+  for (std::size_t s = 0; s < bank.scans.size(); ++s) {
+    double believed = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (points[k].id.empty() && bank.of_runs[k])
+        believed += parting(bank.scans[s], part_of(*bank.of_runs[k], bank.scans, s)), count += 1.0;
+    const double more = parting(bank.scans[s], part_of(bank.measured, bank.scans, s)) - believed / count;
+    found.push_back(std::sqrt(std::max(0.0, 0.5 * more - std::pow(bank.scans[s].sigma_um, 2))));
+  }
+  return found;
+}
+
+/// What effects on bead tables leave unstated of the error of a centre along an axis, µm.
+double error_of_places(const Changes& changes) {
+  Sample sample;
+  for (const auto& [id, theta] : changes)
+    if (effects::known_effect(id)) sample.effects[id] = theta;
+  return 1e6 * effects::actual_beads({Bead{}}, sample).front().sigma_centre;
+}
+
+/// Beads are where they were found, in either scan: where an effect makes that uncertain, so is their motion,
+/// by root two as much. Errors that are the same in both scans cancel: there are no larger ones than the
+/// measured motion shows.
+void add_errors_of_places(const std::vector<DesignPoint>& points, FieldBank& bank) {
+  const auto unstated = unstated_errors(bank, points);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double error = M_SQRT2 * error_of_places(points[k].changes);
+    if (error == 0.0 || !bank.of_runs[k]) continue;
+    const std::uint64_t seed = random_bits(kSeedOfErrors, points[k].seed);
+    Eigen::Index row = 0;
+    for (std::size_t s = 0; s < bank.scans.size(); ++s)
+      for (std::size_t n = 0; n < 3 * bank.scans[s].beads.size(); ++n, ++row)
+        (*bank.of_runs[k])[row] +=
+            std::min(error, unstated[s]) * random_normal(seed, static_cast<std::uint64_t>(row));
+  }
+}
+
 }  // namespace
 
 std::optional<FieldBank> field_bank(const Experiment& experiment, const BankPlan& plan, std::size_t index,
@@ -120,6 +173,7 @@ std::optional<FieldBank> field_bank(const Experiment& experiment, const BankPlan
   for (std::size_t k = 0; k < plan.points.size(); ++k)
     baseline = baseline || (bank.of_runs[k] && plan.points[k].id.empty());
   if (!baseline) return std::nullopt;
+  add_errors_of_places(plan.points, bank);
   return bank;
 }
 

@@ -61,7 +61,7 @@ struct Change {
   /// Whether the line is more than chance makes of so many runs, and large enough to be seen.
   bool repeats() const {
     const double fitted = sum.squaredNorm() / theta_squares;  // of the squares
-    return per_bead(sum) * largest / theta_squares > kThresholds.least_mode &&
+    return runs > 1 && per_bead(sum) * largest / theta_squares > kThresholds.least_mode &&
            fitted > (kThresholds.coherent + (1.0 - kThresholds.coherent) / runs) * squares;
   }
 };

@@ -67,6 +67,30 @@ class FieldReadingsTest : public ::testing::Test {
     return rows;
   }
 
+  /// With an error of every component, m.
+  static std::vector<Followed> seen_with(double error, std::vector<Followed> rows) {
+    for (auto& row : rows)
+      for (int axis = 0; axis < 3; ++axis)
+        row.motion[axis] +=
+            error * random_normal(71, 3 * static_cast<std::uint64_t>(row.id) + static_cast<unsigned>(axis));
+    return rows;
+  }
+
+  /// A run as believed but for an unstated error of the beads' places, um.
+  void add_misplaced(double theta) {
+    DesignPoint point;
+    point.id = "position_error", point.theta = theta, point.changes = {{point.id, theta}};
+    plan.points.push_back(point);
+    tests.push_back(tests.front());
+  }
+
+  static double of_run(const Readings& readings, std::size_t run, const std::string& name) {
+    for (std::size_t k = 0; k < readings.observed.size(); ++k)
+      if (readings.observed[k].name == name + "_at_2.00_percent")
+        return readings.of_runs[run][static_cast<Eigen::Index>(k)];
+    return std::nan("");
+  }
+
   static double named(const Readings& readings, const std::string& name) {
     for (const auto& feature : readings.observed)
       if (feature.name == name + "_at_2.00_percent") return feature.value;
@@ -120,22 +144,32 @@ TEST_F(FieldReadingsTest, ATurnedShiftedAndScaledScanAreTheSame) {
 
 TEST_F(FieldReadingsTest, SimulatedFieldsHaveNoiseOfTheStatedSize) {
   // The field as believed, seen with an error of 0.5 um: the baselines' readings scatter about what it shows.
-  auto rows = bent(0.0);
-  for (auto& row : rows)
-    for (int axis = 0; axis < 3; ++axis)
-      row.motion[axis] +=
-          5e-7 * random_normal(71, 3 * static_cast<std::uint64_t>(row.id) + static_cast<unsigned>(axis));
+  const auto rows = seen_with(5e-7, bent(0.0));
   const Readings stated = read(rows, 0.5), understated = read(rows, 0.1);
   const auto off = [&](const Readings& of) {
     double mean = 0.0;
-    std::size_t at = 0;
-    while (of.observed[at].name != "pairs_sliding_at_2.00_percent") ++at;
-    for (std::size_t k = 0; k < 6; ++k) mean += of.of_runs[k][static_cast<Eigen::Index>(at)] / 6.0;
-    return of.observed[at].value - mean;
+    for (std::size_t k = 0; k < 6; ++k) mean += of_run(of, k, "pairs_sliding") / 6.0;
+    return named(of, "pairs_sliding") - mean;
   };
   EXPECT_LT(std::fabs(off(stated)), 0.3);
   EXPECT_GT(off(understated), 0.8);  // noise that is not stated looks like motion
   EXPECT_GT(stated.by_noise.norm(), 0.0);
+}
+
+TEST_F(FieldReadingsTest, UnstatedErrorsOfPlacesAreThoseOfMotionInEitherScan) {
+  add_misplaced(3.0);
+  const Readings seen = read(seen_with(M_SQRT2 * 3e-6, bent(0.0)));
+  for (const char* name : {"field_size", "left_size", "pairs_parting", "pairs_sliding"}) {
+    EXPECT_NEAR(of_run(seen, 9, name), named(seen, name), 0.1) << name;
+    EXPECT_LT(of_run(seen, 0, name), named(seen, name) - 2.0) << name;
+  }
+}
+
+TEST_F(FieldReadingsTest, ErrorsOfPlacesAreNoLargerThanTheMotionShows) {
+  add_misplaced(3.0);
+  const Readings none = read(bent(0.0)), some = read(seen_with(1e-6, bent(0.0)));
+  EXPECT_NEAR(of_run(none, 9, "pairs_sliding"), of_run(none, 0, "pairs_sliding"), 0.3);
+  EXPECT_NEAR(of_run(some, 9, "pairs_sliding"), named(some, "pairs_sliding"), 0.1);
 }
 
 TEST_F(FieldReadingsTest, RunsThatFailedShowNothing) {
