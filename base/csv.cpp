@@ -27,15 +27,16 @@ std::array<std::string, kMaxColumns> padded_names(std::vector<std::string> names
   return all;
 }
 
-template <typename T>
-T parse(const std::string& text, const std::string& where, const std::string& column, const char* expected) {
+/// `where`: gives the place in words.
+template <typename T, typename Where>
+T parse(const std::string& text, const Where& where, const std::string& column, const char* expected) {
   T value{};
   const char* first = text.data();
   const char* last = first + text.size();
   if (first != last && *first == '+') ++first;
   const auto [end, error] = std::from_chars(first, last, value);
   if (error != std::errc() || end != last)
-    bad_input("{}: column {}: found \"{}\", expected {}", where, column, text, expected);
+    bad_input("{}: column {}: found \"{}\", expected {}", where(), column, text, expected);
   return value;
 }
 
@@ -60,8 +61,8 @@ std::vector<double> CsvTable::numbers(const std::string& column, bool empty_is_n
       values[row] = std::numeric_limits<double>::quiet_NaN();
       continue;
     }
-    values[row] = parse<double>(cells[row], where(row), column, "a number");
-    require_in_range(where(row), "column " + column, range, values[row]);
+    values[row] = parse<double>(cells[row], [&] { return where(row); }, column, "a number");
+    if (!range.holds(values[row])) require_in_range(where(row), "column " + column, range, values[row]);
   }
   return values;
 }
@@ -70,7 +71,7 @@ std::vector<long long> CsvTable::integers(const std::string& column) const {
   const auto& cells = cells_.at(column);
   std::vector<long long> values(cells.size());
   for (std::size_t row = 0; row < cells.size(); ++row)
-    values[row] = parse<long long>(cells[row], where(row), column, "an integer");
+    values[row] = parse<long long>(cells[row], [&] { return where(row); }, column, "an integer");
   return values;
 }
 
@@ -92,14 +93,14 @@ CsvTable read_csv(const fs::path& path, const std::vector<std::string>& required
         all);
     for (const auto& name : required)
       if (!reader.has_column(name)) bad_input("{}: column {} is missing", path.string(), name);
+    std::vector<std::pair<std::size_t, std::vector<std::string>*>> columns;  // that the file has
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (reader.has_column(names[k])) columns.emplace_back(k, &table.cells_[names[k]]);
     std::array<char*, kMaxColumns> cells{};
     while (std::apply([&](auto&... cell) { return reader.read_row(cell...); }, cells)) {
       table.lines_.push_back(reader.get_file_line());
-      for (std::size_t k = 0; k < names.size(); ++k)
-        if (reader.has_column(names[k])) table.cells_[names[k]].emplace_back(cells[k]);
+      for (const auto& [k, column] : columns) column->emplace_back(cells[k]);
     }
-    for (const auto& name : names)
-      if (reader.has_column(name)) table.cells_[name];
   } catch (const io::error::base& error) {
     throw BadInput(fmt::format("{}: {}", path.string(), error.what()));
   }

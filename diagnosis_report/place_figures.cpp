@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "viz/bead_map.h"
 #include "viz/display.h"
@@ -45,15 +46,19 @@ viz::BeadMap map_of(const Place& place) {
   return map;
 }
 
-Drawn misfit_figure(const viz::Display& display, const Place& place) {
+viz::BeadMap misfit_map(const Place& place) {
   viz::BeadMap map = map_of(place);
   map.title = "Where experiment and the simulation as believed part";
   map.quantity = "misfit over noise";
   map.values = place.misfit.value;
   map.low = 1.0;
   map.high = std::max(kLargestMisfit, 2.0 * place.misfit.threshold);
+  return map;
+}
+
+Drawn misfit_figure(viz::Image image, const Place& place) {
   const std::string name = "place_misfit_" + place.observation;
-  return {viz::draw_bead_map(display, map),
+  return {std::move(image),
           fmt::format(
               "{} Beads of {} at {:.2f} % strain behind a cut through the axis: how neighbours part "
               "otherwise than simulated, over the noise; one specimen in twenty exceeds {:.2f} anywhere by "
@@ -62,15 +67,19 @@ Drawn misfit_figure(const viz::Display& display, const Place& place) {
           bead_table(place, name)};
 }
 
-Drawn stiffness_figure(const viz::Display& display, const Place& place) {
+viz::BeadMap stiffness_map(const Place& place) {
   viz::BeadMap map = map_of(place);
   map.title = "What change of stiffness would mend it";
   map.quantity = "change of stiffness (%)";
   map.low = -kLargestChange, map.high = kLargestChange, map.is_signed = true;
   for (std::size_t k = 0; k < map.values.size(); ++k)
     map.values[k] = std::clamp(change_percent(place, k), map.low, map.high);
+  return map;
+}
+
+Drawn stiffness_figure(viz::Image image, const Place& place) {
   const std::string name = "place_stiffness_" + place.observation;
-  return {viz::draw_bead_map(display, map),
+  return {std::move(image),
           fmt::format(
               "Change of stiffness in {} regions of {} that brings the simulated displacements nearest to "
               "the measured ones, by the adjoint of the spring network; what it leaves is {:.1f} times the "
@@ -84,10 +93,12 @@ Drawn stiffness_figure(const viz::Display& display, const Place& place) {
 std::vector<Drawn> place_figures(const std::vector<Place>& places) {
   std::vector<Drawn> figures;
   if (places.empty()) return figures;
-  const viz::Display display;
-  for (const Place& place : places) {
-    figures.push_back(misfit_figure(display, place));
-    figures.push_back(stiffness_figure(display, place));
+  std::vector<viz::BeadMap> maps;
+  for (const Place& place : places) maps.push_back(misfit_map(place)), maps.push_back(stiffness_map(place));
+  auto images = viz::draw_bead_maps(viz::Display(), maps);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    figures.push_back(misfit_figure(std::move(images[2 * k]), places[k]));
+    figures.push_back(stiffness_figure(std::move(images[2 * k + 1]), places[k]));
   }
   return figures;
 }

@@ -56,13 +56,10 @@ void add_spheres(vtkRenderer* scene, const BeadMap& map, double plane, vtkScalar
   scene->AddActor(actor);
 }
 
-}  // namespace
-
-Image draw_bead_map(const Display& display, const BeadMap& map, PictureSize size) {
+Image draw_in(Canvas& canvas, const BeadMap& map) {
   Vec3 low = map.centres.front(), high = low;
   for (const Vec3& p : map.centres) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const Vec3 middle = kMillimetre * 0.5 * (low + high);
-  Canvas canvas(display, size);
   canvas.window()->SetNumberOfLayers(2);
   const auto colour =
       colours(map.is_signed ? ColourMap::signed_values : ColourMap::alarm, {map.low, map.high});
@@ -87,7 +84,19 @@ Image draw_bead_map(const Display& display, const BeadMap& map, PictureSize size
   add_text(annotation, canvas, map.title, 0.03, 0.945, {.size = 40, .bold = true});
   add_text(annotation, canvas, map.note, 0.03, 0.895);
   add_colour_bar(annotation, canvas, map.quantity, {map.low, map.high}, colour);
-  return canvas.draw();
+  Image image = canvas.draw();
+  canvas.window()->RemoveRenderer(scene);
+  canvas.window()->RemoveRenderer(annotation);
+  return image;
+}
+
+}  // namespace
+
+std::vector<Image> draw_bead_maps(const Display& display, std::span<const BeadMap> maps, PictureSize size) {
+  std::vector<Image> images;
+  Canvas canvas(display, size);  // its window takes longer to make than a picture to draw
+  for (const BeadMap& map : maps) images.push_back(draw_in(canvas, map));
+  return images;
 }
 
 }  // namespace pendular::viz

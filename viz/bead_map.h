@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct BeadMap {
   bool is_signed = false;                 ///< blue over white to red, for ranges about zero
 };
 
-/// The half of the specimen behind the vertical plane through its axis, seen along y.
-Image draw_bead_map(const Display& display, const BeadMap& map, PictureSize size = {});
+/// Of each, the half of the specimen behind the vertical plane through its axis, seen along y.
+std::vector<Image> draw_bead_maps(const Display& display, std::span<const BeadMap> maps,
+                                  PictureSize size = {});
 
 }  // namespace pendular::viz

@@ -72,7 +72,7 @@ Terms terms_of(const Replayed& one) {
     if (h.id == kUnknown || (h.id != truth && h.log_evidence < best - kHopeless)) continue;
     if (h.id == truth) terms.truth = terms.all.size();
     terms.all.push_back({std::log(std::max(1e-300, h.probability)) - h.log_evidence, h.log_evidence,
-                         effects_in(h.id).size() == 2 ? beyond_plainer(h, one.said) : 0.0});
+                         names_two(h.id) ? beyond_plainer(h, one.said) : 0.0});
   }
   return terms;
 }

@@ -12,7 +12,7 @@ namespace pendular::diagnosis {
 namespace {
 
 bool is_pair(const Hypothesis& h) {
-  return h.id == kOtherPairs || effects_in(h.id).size() == 2;
+  return h.id == kOtherPairs || names_two(h.id);
 }
 
 /// Pairs that were not run, as one explanation: whichever is named, no run shows what it does.
@@ -117,8 +117,7 @@ const char* why_unknown(const std::vector<Hypothesis>& said, const Correction& c
 
 const Hypothesis* stand_in(const Hypothesis& h, const std::vector<Hypothesis>& said,
                            const Correction& correction) {
-  const auto effects = effects_in(h.id).size();
-  if (effects == 1) {
+  if (h.magnitudes.size() == 1) {
     const Hypothesis* none = said_of(said, kNone);
     const auto from = correction.told_from.find(h.id);
     const bool told = from == correction.told_from.end() || from->second.tells(h.magnitudes.front().mean);

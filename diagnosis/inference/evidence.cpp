@@ -1,6 +1,7 @@
 #include "diagnosis/inference/evidence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -23,8 +24,9 @@ constexpr double kLeastShare = 0.01, kStep = 1.25;  // of the magnitudes at whic
 Weighed none(const ReducedSpace& space, const ReducedGap& gap, bool beside) {
   const Eigen::Index size = space.size();
   const std::vector<Expected> nothing = {{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size)}};
-  const Predictions said = space.predict(nothing);
-  const Fits fits = space.fit(gap, said);
+  Workspace room(size);
+  const Predictions said = space.predict(nothing, 1.0, room);
+  const Fits fits = space.fit(gap, responses_of(nothing), said, room);
   const double chi_squared = fits.chi_squared[0];
   return {{"none", fits.log_likelihood[0], 0.0, {}, chi_squared},
           beside ? beside_unknown(space, gap, said, 0, chi_squared) : 0.0};
@@ -47,8 +49,8 @@ Hypothesis unknown(const std::vector<Weighed>& known, const Priors& priors) {
   const double other = mean_of(beside);
   Hypothesis found{"unknown", other, 0.0, {}, none.chi_squared};
   if (!like.empty())
-    found.log_evidence =
-        log_sum({other + std::log(1.0 - priors.like_known), mean_of(like) + std::log(priors.like_known)});
+    found.log_evidence = log_sum(
+        std::array{other + std::log(1.0 - priors.like_known), mean_of(like) + std::log(priors.like_known)});
   return found;
 }
 
@@ -106,6 +108,7 @@ Eigen::VectorXd at_scale(const Signature& signature) {
 Weigher::Weigher(const Gap& gap, const std::vector<Signature>& signatures,
                  const std::vector<Together>& together, const Priors& priors, Pairs which)
     : space_(gap, signatures), priors_(priors), which_(which) {
+  reduced_.reserve(signatures.size());
   for (const auto& signature : signatures) reduced_.push_back(with_visible(space_.reduced(signature)));
   for (std::size_t a = 0; a < reduced_.size(); ++a)
     for (std::size_t b = a + 1; b < reduced_.size(); ++b) {
@@ -119,8 +122,7 @@ bool Weigher::absent(const std::string& effect, double theta) const {
                      [&](const Signature& one) { return one.id == effect && std::fabs(theta) < one.least; });
 }
 
-// Predictions of an effect take much memory, those of a pair more: one at a time and thread, for all
-// observations.
+// What an effect or a pair says is worked out once, for all observations.
 std::vector<std::vector<Hypothesis>> Weigher::of_singles(const std::vector<ReducedGap>& gaps,
                                                          double negligible) const {
   std::vector<std::optional<MagnitudeGrid>> grids(reduced_.size());

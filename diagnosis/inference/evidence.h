@@ -45,6 +45,9 @@ struct Hypothesis {
 
 /// Effects that an explanation names: none in "none", "unknown" and kOtherPairs, two in "a+b".
 std::vector<std::string> effects_in(const std::string& id);
+inline bool names_two(const std::string& id) {
+  return id.find('+') != std::string::npos;
+}
 
 /// Which pairs are weighed: all, or those that were run and those of the observation's most probable single
 /// effect.

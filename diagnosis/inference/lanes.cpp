@@ -1,9 +1,12 @@
 #include "diagnosis/inference/lanes.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pendular::diagnosis {
 namespace {
+
+constexpr std::size_t kOfOneLogarithm = 8;  // pivots, whose product stays far from the smallest number
 
 constexpr std::size_t place(std::size_t row, std::size_t column) {
   return row * (row + 1) / 2 + column;
@@ -78,8 +81,12 @@ struct Squared {
 
 }  // namespace
 
-LaneFactors::LaneFactors(Eigen::Index size)
-    : size_(static_cast<std::size_t>(size)), rows_(place(size_, 0), LaneNumbers{}) {
+LaneFactors::LaneFactors(Eigen::Index size) : size_(static_cast<std::size_t>(size)), rows_(place(size_, 0)) {
+  reset();
+}
+
+void LaneFactors::reset() {
+  std::fill(rows_.begin(), rows_.end(), LaneNumbers{});
   for (std::size_t row = 0; row < size_; ++row) rows_[place(row, row)].fill(1.0);
 }
 
@@ -98,13 +105,16 @@ void LaneFactors::factor() {
 
 LaneNumbers LaneFactors::half_log_determinants() const {
   LaneNumbers sums{};
-  for (std::size_t row = 0; row < size_; ++row)
-    for (std::size_t lane = 0; lane < kLanes; ++lane) sums[lane] -= std::log(rows_[place(row, row)][lane]);
+  for (std::size_t first = 0; first < size_; first += kOfOneLogarithm) {
+    LaneNumbers product = rows_[place(first, first)];
+    for (std::size_t row = first + 1; row < std::min(size_, first + kOfOneLogarithm); ++row)
+      for (std::size_t lane = 0; lane < kLanes; ++lane) product[lane] *= rows_[place(row, row)][lane];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) sums[lane] -= std::log(product[lane]);
+  }
   return sums;
 }
 
-LaneNumbers LaneFactors::squared(const std::vector<LaneNumbers>& x) const {
-  std::vector<LaneNumbers> solved(size_);
+LaneNumbers LaneFactors::squared(const std::vector<LaneNumbers>& x, std::vector<LaneNumbers>& solved) const {
   LaneNumbers sum;
   run_widest<Squared>(rows_.data(), size_, x.data(), solved.data(), &sum);
   return sum;

@@ -16,6 +16,7 @@ class LaneFactors {
  public:
   /// Identity matrices.
   explicit LaneFactors(Eigen::Index size);
+  void reset();  ///< to identity matrices
 
   /// Adds to each lane's matrix so many times this one, of which the upper triangle is read. Before factor().
   void add(const Eigen::MatrixXd& matrix, const LaneNumbers& times);
@@ -27,8 +28,8 @@ class LaneFactors {
 
   /// Half the logarithm of each determinant.
   LaneNumbers half_log_determinants() const;
-  /// xᵀ C⁻¹ x, with x of as many components as the matrices have rows.
-  LaneNumbers squared(const std::vector<LaneNumbers>& x) const;
+  /// xᵀ C⁻¹ x, with x of as many components as the matrices have rows. `solved`: room for as many.
+  LaneNumbers squared(const std::vector<LaneNumbers>& x, std::vector<LaneNumbers>& solved) const;
 
  private:
   std::size_t size_;

@@ -5,7 +5,7 @@
 
 namespace pendular::diagnosis {
 
-double log_sum(const std::vector<double>& terms) {
+double log_sum(std::span<const double> terms) {
   const double largest = *std::max_element(terms.begin(), terms.end());
   if (!std::isfinite(largest)) return largest;
   double sum = 0.0;

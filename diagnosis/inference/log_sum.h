@@ -1,10 +1,10 @@
 #pragma once
 
-#include <vector>
+#include <span>
 
 namespace pendular::diagnosis {
 
 /// log Σ exp of some terms, without overflow; −∞ where all are.
-double log_sum(const std::vector<double>& terms);
+double log_sum(std::span<const double> terms);
 
 }  // namespace pendular::diagnosis

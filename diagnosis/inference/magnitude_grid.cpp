@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <map>
 
 #include "diagnosis/inference/log_sum.h"
 #include "diagnosis/thresholds.h"
@@ -13,10 +14,13 @@ namespace pendular::diagnosis {
 namespace {
 
 // Of a response's own covariance, in terms of standard deviations.
-constexpr double kScale[] = {0.4, 0.63, 1.0, 1.6, 2.5}, kScaleWeights[] = {0.1, 0.24, 0.32, 0.24, 0.1};
+constexpr double kScale[] = {0.4, 0.63, 1.0, 1.6, 2.5};
+const double kLogScaleWeights[] = {std::log(0.1), std::log(0.24), std::log(0.32), std::log(0.24),
+                                   std::log(0.1)};
 constexpr int kCellsOfOne = 41, kCellsOfTwo = 11;  // of each effect's range
 constexpr int kRefined = 3, kParts = 4;            // how often cells at the peak are cut, and into how many
 constexpr double kUnknownFactors[] = {1.0, 1.5, 2.5, 4.0, 7.0};  // of the noise's standard deviation
+constexpr double kNoWeight = 1e-14;                              // of a cell, over that of all
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 /// All magnitudes are alike a priori, those below the least one aside.
@@ -42,119 +46,128 @@ double beside_unknown(const ReducedSpace& space, const ReducedGap& gap, const Pr
   std::vector<double> within, outside;
   for (const double factor : kUnknownFactors) {
     within.push_back(space.log_within(predictions, lane, chi_squared, factor));
-    outside.push_back(space.log_outside(predictions, lane, gap.outside, factor));
+    outside.push_back(space.log_outside(predictions, lane, gap, factor));
   }
   const double usual_outside = outside.front();
   const std::vector<double> wider_within(within.begin() + 1, within.end()),
       wider_outside(outside.begin() + 1, outside.end());
-  return log_sum({log_sum(within) + log_sum(wider_outside), log_sum(wider_within) + usual_outside}) -
+  return log_sum(
+             std::array{log_sum(within) + log_sum(wider_outside), log_sum(wider_within) + usual_outside}) -
          std::log(static_cast<double>(within.size() * outside.size() - 1));
 }
 
-double MagnitudeGrid::Fitted::log_density() const {
+double MagnitudeGrid::Fitted::log_density(std::size_t effects) const {
   double density = log_weight();
-  for (const auto& cell : place().cells) density -= std::log(cell.width);
+  for (std::size_t e = 0; e < effects; ++e) density -= std::log(place().cells[e].width);
   return density;
-}
-
-void MagnitudeGrid::fit(const Batch& batch, const ReducedGap& gap, std::vector<Fitted>& to) const {
-  static_assert(std::size(kScale) == kScales && std::size(kScaleWeights) == kScales);
-  std::array<Fits, kScales> fits;
-  for (std::size_t k = 0; k < kScales; ++k) fits[k] = space_.fit(gap, batch.predictions[k]);
-  for (std::size_t lane = 0; lane < batch.places.size(); ++lane) {
-    Fitted fitted{&batch, lane};
-    std::vector<double> terms;
-    for (std::size_t k = 0; k < kScales; ++k) {
-      fitted.chi_squareds[k] = fits[k].chi_squared[lane];
-      terms.push_back(std::log(kScaleWeights[k]) + fits[k].log_likelihood[lane]);
-    }
-    fitted.log_likelihood = log_sum(terms);
-    to.push_back(fitted);
-  }
-}
-
-std::vector<std::vector<MagnitudeGrid::Fitted>> MagnitudeGrid::fit(const std::vector<ReducedGap>& gaps) {
-  std::vector<std::vector<Fitted>> fitted(gaps.size());
-  for (auto& batch : batches_) {
-    for (std::size_t k = 0; k < gaps.size(); ++k) fit(batch, gaps[k], fitted[k]);
-    for (auto& prediction : batch.predictions) prediction.factors = LaneFactors(0);
-  }
-  return fitted;
 }
 
 MagnitudeGrid::MagnitudeGrid(std::vector<Signature> reduced, std::optional<Together> together,
                              const ReducedSpace& space)
-    : reduced_(std::move(reduced)), together_(std::move(together)), space_(space) {
-  std::vector<Cell> whole;
-  for (const auto& one : reduced_)
-    whole.push_back({0.5 * (one.lowest + one.highest), one.highest - one.lowest});
-  batches_ = batches_at(parts_of(whole, reduced_.size() > 1 ? kCellsOfTwo : kCellsOfOne));
+    : reduced_(std::move(reduced)), together_(std::move(together)), space_(space) {}
+
+std::vector<std::vector<MagnitudeGrid::Fitted>> MagnitudeGrid::fit(std::span<const ReducedGap> gaps) {
+  Cells whole;
+  for (std::size_t e = 0; e < reduced_.size(); ++e)
+    whole[e] = {0.5 * (reduced_[e].lowest + reduced_[e].highest), reduced_[e].highest - reduced_[e].lowest};
+  std::vector<std::vector<Fitted>> fitted(gaps.size());
+  fit(parts_of(whole, reduced_.size() > 1 ? kCellsOfTwo : kCellsOfOne), gaps, batches_, fitted);
+  return fitted;
 }
 
-/// One or two cells, each cut into so many.
-std::vector<std::vector<MagnitudeGrid::Cell>> MagnitudeGrid::parts_of(const std::vector<Cell>& cells,
-                                                                      int parts) {
-  std::vector<std::vector<Cell>> found = {{}};
-  for (const auto& cell : cells) {
-    std::vector<std::vector<Cell>> longer;
+/// The cell of each effect, cut into so many.
+std::vector<MagnitudeGrid::Cells> MagnitudeGrid::parts_of(const Cells& cells, int parts) const {
+  std::vector<Cells> found = {cells};
+  for (std::size_t e = 0; e < reduced_.size(); ++e) {
+    std::vector<Cells> longer;
     for (const auto& so_far : found)
-      for (int k = 0; k < parts; ++k) {
-        longer.push_back(so_far);
-        longer.back().push_back({cell.theta + cell.width * ((k + 0.5) / parts - 0.5), cell.width / parts});
-      }
+      for (int k = 0; k < parts; ++k)
+        (longer.emplace_back(so_far))[e] = {cells[e].theta + cells[e].width * ((k + 0.5) / parts - 0.5),
+                                            cells[e].width / parts};
     found = std::move(longer);
   }
   return found;
 }
 
-std::vector<MagnitudeGrid::Batch> MagnitudeGrid::batches_at(const std::vector<std::vector<Cell>>& all) const {
+// Covariances stay in fast memory: those of some places at one scale are factored, and serve for all gaps.
+void MagnitudeGrid::fit(const std::vector<Cells>& all, std::span<const ReducedGap> gaps, Batches& batches,
+                        std::span<std::vector<Fitted>> to) const {
+  static_assert(std::size(kScale) == kScales && std::size(kLogScaleWeights) == kScales);
   std::vector<Place> places;
   for (const auto& cells : all) {
     double log_prior = 0.0;
-    for (std::size_t e = 0; e < cells.size(); ++e)
+    for (std::size_t e = 0; e < reduced_.size(); ++e)
       log_prior += log_prior_of(reduced_[e], cells[e].theta, cells[e].width);
     if (log_prior != kNever) places.push_back({cells, log_prior});
   }
-  std::vector<Batch> batches;
+  std::array<std::map<double, Expected>, 2> known;  // cells of two effects are all pairs of some of each
+  const auto of_effect = [&](std::size_t e, double theta) -> const Expected& {
+    const auto [at, added] = known[e].try_emplace(theta);
+    if (added) at->second = expected_of(e, theta);
+    return at->second;
+  };
+  Workspace room(space_.size());
+  std::vector<std::array<Fits, kScales>> fits(gaps.size());
   for (std::size_t first = 0; first < places.size(); first += kLanes) {
-    Batch batch;
-    std::vector<Expected> all_expected;
+    Batch& batch = batches.emplace_back();
+    std::vector<Expected> here;
     for (std::size_t k = first; k < std::min(first + kLanes, places.size()); ++k) {
-      all_expected.push_back(expected(places[k].cells));
-      batch.places.push_back(std::move(places[k]));
+      const Cells& cells = places[k].cells;
+      here.push_back(of_effect(0, cells[0].theta));
+      if (reduced_.size() > 1) here.back() = together(here.back(), of_effect(1, cells[1].theta), cells);
+      batch.places.push_back(places[k]);
     }
-    for (const double scale : kScale) batch.predictions.push_back(space_.predict(all_expected, scale));
-    batches.push_back(std::move(batch));
+    const auto responses = responses_of(here);
+    for (std::size_t s = 0; s < kScales; ++s) {
+      const Predictions& said = batch.predictions.emplace_back(space_.predict(here, kScale[s], room));
+      for (std::size_t g = 0; g < gaps.size(); ++g) fits[g][s] = space_.fit(gaps[g], responses, said, room);
+    }
+    for (std::size_t g = 0; g < gaps.size(); ++g)
+      for (std::size_t lane = 0; lane < here.size(); ++lane) to[g].push_back(fitted_of(batch, lane, fits[g]));
   }
-  return batches;
 }
 
-/// What one effect does, or two together, and how it is known.
-Expected MagnitudeGrid::expected(const std::vector<Cell>& cells) const {
-  const Eigen::Index size = space_.size();
-  Expected found{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size)};
-  Eigen::VectorXd product = Eigen::VectorXd::Constant(size, cells.size() > 1 ? 1.0 : 0.0);
-  for (std::size_t e = 0; e < cells.size(); ++e) {
-    const double theta = cells[e].theta;
-    const Eigen::VectorXd response = reduced_[e].at(theta);
-    found.response += response;
-    product = product.cwiseProduct(response);
-    found.shares += variance_of(reduced_[e], response);
-    found.outside += std::pow(reduced_[e].outside, 2) * response.squaredNorm();
-    const Response& here = reduced_[e].response(theta);
-    if (here.draws.size() == 0) continue;
-    const double grown = here.grown(theta);
-    found.draws.emplace_back(&here.draws, grown);
-    found.drawn_outside += grown * here.drawn_outside;
-    found.dof = found.dof > 0.0 ? std::min(found.dof, here.drawn_dof) : here.drawn_dof;
+/// Over all scales.
+MagnitudeGrid::Fitted MagnitudeGrid::fitted_of(const Batch& batch, std::size_t lane,
+                                               const std::array<Fits, kScales>& fits) {
+  Fitted fitted{&batch, lane};
+  std::array<double, kScales> terms;
+  for (std::size_t s = 0; s < kScales; ++s) {
+    fitted.chi_squareds[s] = fits[s].chi_squared[lane];
+    terms[s] = kLogScaleWeights[s] + fits[s].log_likelihood[lane];
   }
-  if (together_) {
-    const double grown = cells[0].theta / together_->theta_a * cells[1].theta / together_->theta_b;
-    found.response += grown * together_->beyond;
-    if (together_->error.size() > 0) found.draws.emplace_back(&together_->error, grown * grown);
-  }
-  found.shares +=
-      std::pow(together_ ? kThresholds.run_together : kThresholds.together, 2) * product.cwiseAbs();
+  fitted.log_likelihood = log_sum(terms);
+  return fitted;
+}
+
+/// What an effect does, and how it is known.
+Expected MagnitudeGrid::expected_of(std::size_t effect, double theta) const {
+  const Signature& signature = reduced_[effect];
+  const Response& response = signature.response(theta);
+  Expected found{response.at(theta), {}};
+  found.shares = variance_of(signature, found.response);
+  found.outside = std::pow(signature.outside, 2) * found.response.squaredNorm();
+  if (response.draws.size() == 0) return found;
+  const double grown = response.grown(theta);
+  found.draws = {{&response.draws, grown}};
+  found.drawn_outside = grown * response.drawn_outside;
+  found.dof = response.drawn_dof;
+  return found;
+}
+
+/// The same of two together.
+Expected MagnitudeGrid::together(const Expected& a, const Expected& b, const Cells& cells) const {
+  const double known = together_ ? kThresholds.run_together : kThresholds.together;
+  Expected found{a.response + b.response,
+                 a.shares + b.shares + known * known * a.response.cwiseProduct(b.response).cwiseAbs()};
+  found.draws = a.draws;
+  found.draws.insert(found.draws.end(), b.draws.begin(), b.draws.end());
+  found.dof = a.dof > 0.0 && b.dof > 0.0 ? std::min(a.dof, b.dof) : std::max(a.dof, b.dof);
+  found.outside = a.outside + b.outside, found.drawn_outside = a.drawn_outside + b.drawn_outside;
+  if (!together_) return found;
+  const double grown = cells[0].theta / together_->theta_a * cells[1].theta / together_->theta_b;
+  found.response += grown * together_->beyond;
+  if (together_->error.size() > 0) found.draws.emplace_back(&together_->error, grown * grown);
   return found;
 }
 
@@ -166,24 +179,25 @@ double MagnitudeGrid::evidence_of(const std::vector<Fitted>& fitted) {
 
 Weighed MagnitudeGrid::weigh(const ReducedGap& gap, std::vector<Fitted> fitted, double least,
                              bool beside) const {
-  std::deque<std::vector<Batch>> finer;  // outlives what points into it
+  Batches finer;
   const int rounds = evidence_of(fitted) >= least ? kRefined : 0;
   for (int round = 0; round < rounds && !fitted.empty(); ++round) {
-    const auto best =
-        std::max_element(fitted.begin(), fitted.end(),
-                         [](const Fitted& a, const Fitted& b) { return a.log_density() < b.log_density(); })
-            ->place()
-            .cells;
-    std::vector<std::vector<Cell>> cut;
+    const auto best = std::max_element(fitted.begin(), fitted.end(),
+                                       [n = reduced_.size()](const Fitted& a, const Fitted& b) {
+                                         return a.log_density(n) < b.log_density(n);
+                                       })
+                          ->place()
+                          .cells;
+    std::vector<Cells> cut;
     std::erase_if(fitted, [&](const Fitted& one) {
       const auto& cells = one.place().cells;
-      for (std::size_t e = 0; e < best.size(); ++e)
+      for (std::size_t e = 0; e < reduced_.size(); ++e)
         if (std::fabs(cells[e].theta - best[e].theta) > 0.75 * (cells[e].width + best[e].width)) return false;
       const auto parts = parts_of(cells, kParts);
       cut.insert(cut.end(), parts.begin(), parts.end());
       return true;
     });
-    for (const auto& batch : finer.emplace_back(batches_at(cut))) fit(batch, gap, fitted);
+    fit(cut, {&gap, 1}, finer, {&fitted, 1});
   }
 
   Weighed found;
@@ -194,7 +208,7 @@ Weighed MagnitudeGrid::weigh(const ReducedGap& gap, std::vector<Fitted> fitted, 
     if (beside)
       for (std::size_t k = 0; k < kScales; ++k)
         wider.push_back(
-            one.place().log_prior + std::log(kScaleWeights[k]) +
+            one.place().log_prior + kLogScaleWeights[k] +
             beside_unknown(space_, gap, one.batch->predictions[k], one.lane, one.chi_squareds[k]));
     hypothesis.chi_squared = std::min(hypothesis.chi_squared, one.chi_squareds[kScales / 2]);
   }
@@ -212,8 +226,10 @@ Magnitude MagnitudeGrid::magnitude(std::size_t effect, const std::vector<Fitted>
   std::vector<std::pair<Cell, double>> cells;
   Magnitude found;
   for (const auto& one : fitted) {
-    cells.emplace_back(one.place().cells[effect], std::exp(one.log_weight() - log_evidence));
-    found.mean += cells.back().second * cells.back().first.theta;
+    const double weight = std::exp(one.log_weight() - log_evidence);
+    if (weight < kNoWeight) continue;
+    cells.emplace_back(one.place().cells[effect], weight);
+    found.mean += weight * cells.back().first.theta;
   }
   const auto below = [&](double theta) {
     double sum = 0.0;

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cstddef>
+#include <deque>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "diagnosis/inference/evidence.h"
@@ -30,9 +32,8 @@ class MagnitudeGrid {
   MagnitudeGrid(std::vector<Signature> reduced, std::optional<Together> together, const ReducedSpace& space);
 
   struct Fitted;
-  /// How the cells of the grid fit each gap, before any is cut. Once: what only this needs is given back,
-  /// since it is large.
-  std::vector<std::vector<Fitted>> fit(const std::vector<ReducedGap>& gaps);
+  /// How the cells of the grid fit each gap, before any is cut. Valid as long as the grid.
+  std::vector<std::vector<Fitted>> fit(std::span<const ReducedGap> gaps);
 
   /// The logarithm of the evidence that fits come to.
   static double evidence_of(const std::vector<Fitted>& fitted);
@@ -47,9 +48,10 @@ class MagnitudeGrid {
   struct Cell {
     double theta = 0.0, width = 0.0;
   };
-  /// A cell of each effect.
+  /// Of each effect.
+  using Cells = std::array<Cell, 2>;
   struct Place {
-    std::vector<Cell> cells;
+    Cells cells;
     double log_prior = 0.0;
   };
   /// As many places as lanes, or fewer, and what they say.
@@ -57,17 +59,21 @@ class MagnitudeGrid {
     std::vector<Place> places;
     std::vector<Predictions> predictions;  // one per scale
   };
+  using Batches = std::deque<Batch>;  // what fits point into
 
-  static std::vector<std::vector<Cell>> parts_of(const std::vector<Cell>& cells, int parts);
-  std::vector<Batch> batches_at(const std::vector<std::vector<Cell>>& all) const;
-  void fit(const Batch& batch, const ReducedGap& gap, std::vector<Fitted>& to) const;
-  Expected expected(const std::vector<Cell>& cells) const;
+  std::vector<Cells> parts_of(const Cells& cells, int parts) const;
+  /// Fits of cells to each gap, added to those that there are.
+  void fit(const std::vector<Cells>& all, std::span<const ReducedGap> gaps, Batches& batches,
+           std::span<std::vector<Fitted>> to) const;
+  static Fitted fitted_of(const Batch& batch, std::size_t lane, const std::array<Fits, kScales>& fits);
+  Expected expected_of(std::size_t effect, double theta) const;
+  Expected together(const Expected& a, const Expected& b, const Cells& cells) const;
   Magnitude magnitude(std::size_t effect, const std::vector<Fitted>& fitted, double log_evidence) const;
 
   std::vector<Signature> reduced_;
   std::optional<Together> together_;
   const ReducedSpace& space_;
-  std::vector<Batch> batches_;
+  Batches batches_;
 };
 
 /// A place of the grid and how it fits a gap, at each scale and over all.
@@ -79,7 +85,7 @@ struct MagnitudeGrid::Fitted {
 
   const Place& place() const { return batch->places[lane]; }
   double log_weight() const { return place().log_prior + log_likelihood; }
-  double log_density() const;
+  double log_density(std::size_t effects) const;
 };
 
 }  // namespace pendular::diagnosis

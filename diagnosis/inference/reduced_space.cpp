@@ -12,6 +12,7 @@
 namespace pendular::diagnosis {
 namespace {
 
+constexpr double kLeastLog = -20.7;  // of what is outside the span, over its scale
 constexpr Eigen::Index kMostDirections = 45;
 constexpr int kSpanned = 3;  // magnitudes of each sign whose responses span
 constexpr Eigen::Index kLeastRows =
@@ -68,18 +69,28 @@ Signature ReducedSpace::reduced(Signature signature) const {
   return signature;
 }
 
+ReducedGap ReducedSpace::gap(const Eigen::VectorXd& values) const {
+  const double square = outside(values);
+  return {reduced(values), square, std::log(square)};
+}
+
 double ReducedSpace::outside(const Eigen::VectorXd& v) const {
   return std::max(0.0, whiten(v).squaredNorm() - reduced(v).squaredNorm());
 }
 
-Predictions ReducedSpace::predict(std::span<const Expected> expected, double scale) const {
+std::vector<LaneNumbers> responses_of(std::span<const Expected> expected) {
+  std::vector<LaneNumbers> found(static_cast<std::size_t>(expected.front().response.size()));
+  for (std::size_t k = 0; k < found.size(); ++k)
+    for (std::size_t lane = 0; lane < expected.size(); ++lane)
+      found[k][lane] = expected[lane].response[static_cast<Eigen::Index>(k)];
+  return found;
+}
+
+Predictions ReducedSpace::predict(std::span<const Expected> expected, double scale, Workspace& room) const {
   const double p = static_cast<double>(size()), variance = scale * scale;
-  Predictions found{expected.size(),
-                    std::vector<LaneNumbers>(static_cast<std::size_t>(size())),
-                    LaneFactors(size()),
-                    {},
-                    {},
-                    {}};
+  Predictions found{expected.size(), {}, {}, {}, {}};
+  LaneFactors& factors = room.factors;
+  factors.reset();
   std::vector<std::pair<const Eigen::MatrixXd*, LaneNumbers>> draws;
   const auto times_of = [&](const Eigen::MatrixXd* covariance) -> LaneNumbers& {
     for (auto& [known, times] : draws)
@@ -88,9 +99,7 @@ Predictions ReducedSpace::predict(std::span<const Expected> expected, double sca
   };
   for (std::size_t lane = 0; lane < expected.size(); ++lane) {
     const Expected& one = expected[lane];
-    for (Eigen::Index k = 0; k < size(); ++k)
-      found.responses[static_cast<std::size_t>(k)][lane] = one.response[k];
-    found.factors.add_diagonal(lane, one.shares);
+    factors.add_diagonal(lane, one.shares);
     double drawn = 0.0;
     for (const auto& [covariance, times] : one.draws) {
       times_of(covariance)[lane] += times * variance;
@@ -104,10 +113,11 @@ Predictions ReducedSpace::predict(std::span<const Expected> expected, double sca
     const double outside = one.outside + variance * one.drawn_outside;
     found.widening[lane] =
         dimensions_ > 0.0 ? std::sqrt(1.0 + outside / (outside_scale_ * outside_dof_)) : 1.0;
+    found.log_widening[lane] = std::log(found.widening[lane]);
   }
-  for (const auto& [covariance, times] : draws) found.factors.add(*covariance, times);
-  found.factors.factor();
-  const LaneNumbers half_log = found.factors.half_log_determinants();
+  for (const auto& [covariance, times] : draws) factors.add(*covariance, times);
+  factors.factor();
+  const LaneNumbers half_log = factors.half_log_determinants();
   for (std::size_t lane = 0; lane < expected.size(); ++lane) {
     const double nu = found.dof[lane];
     found.log_volume[lane] =
@@ -118,14 +128,15 @@ Predictions ReducedSpace::predict(std::span<const Expected> expected, double sca
   return found;
 }
 
-Fits ReducedSpace::fit(const ReducedGap& gap, const Predictions& predictions) const {
-  std::vector<LaneNumbers> missed = predictions.responses;
-  for (std::size_t k = 0; k < missed.size(); ++k)
-    for (double& one : missed[k]) one = gap.within[static_cast<Eigen::Index>(k)] - one;
-  Fits fits{{}, predictions.factors.squared(missed)};
+Fits ReducedSpace::fit(const ReducedGap& gap, const std::vector<LaneNumbers>& responses,
+                       const Predictions& predictions, Workspace& room) const {
+  for (std::size_t k = 0; k < responses.size(); ++k)
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      room.missed[k][lane] = gap.within[static_cast<Eigen::Index>(k)] - responses[k][lane];
+  Fits fits{{}, room.factors.squared(room.missed, room.solved)};
   for (std::size_t lane = 0; lane < predictions.size; ++lane)
-    fits.log_likelihood[lane] = log_within(predictions, lane, fits.chi_squared[lane], 1.0) +
-                                log_outside(predictions, lane, gap.outside, 1.0);
+    fits.log_likelihood[lane] =
+        log_within(predictions, lane, fits.chi_squared[lane], 1.0) + log_outside(predictions, lane, gap, 1.0);
   return fits;
 }
 
@@ -137,12 +148,14 @@ double ReducedSpace::log_within(const Predictions& predictions, std::size_t lane
          (nu <= 0.0 ? 0.5 * squared : 0.5 * (nu + p) * std::log1p(squared / nu));
 }
 
-double ReducedSpace::log_outside(const Predictions& predictions, std::size_t lane, double outside,
+// The density is wanted of many gaps: what logarithms it has are of the gap or of the prediction.
+double ReducedSpace::log_outside(const Predictions& predictions, std::size_t lane, const ReducedGap& gap,
                                  double factor) const {
   if (dimensions_ <= 0.0) return 0.0;
-  const double wider = factor * predictions.widening[lane], half = 0.5 * outside_dof_,
-               scale = outside_scale_ * wider * wider, x = std::max(1e-9, outside / scale);
-  return (half - 1.0) * std::log(x) - 0.5 * x - log_chi_ - std::log(scale);
+  const double wider = factor * predictions.widening[lane], scale = outside_scale_ * wider * wider,
+               log_scale = log_outside_scale_ + 2.0 * (std::log(factor) + predictions.log_widening[lane]);
+  return (0.5 * outside_dof_ - 1.0) * std::max(kLeastLog, gap.log_outside - log_scale) -
+         0.5 * gap.outside / scale - log_chi_ - log_scale;
 }
 
 void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {
@@ -182,6 +195,7 @@ void ReducedSpace::learn_outside(const std::vector<double>& known) {
   for (double one : known) square += (one - mean) * (one - mean) / (n - 1.0);
   if (!(mean > 0.0 && square > 0.0)) return;
   outside_scale_ = kThresholds.fresh * square / (2.0 * mean);
+  log_outside_scale_ = std::log(outside_scale_);
   outside_dof_ = 2.0 * mean * mean / square;
 }
 

@@ -16,7 +16,7 @@ namespace pendular::diagnosis {
 /// outside.
 struct ReducedGap {
   Eigen::VectorXd within;
-  double outside = 0.0;
+  double outside = 0.0, log_outside = 0.0;
 };
 
 /// A reduced response, and how it is known besides the noise.
@@ -30,14 +30,23 @@ struct Expected {
   double drawn_outside = 0.0;  ///< square outside the span of what runs differ by
 };
 
-/// What explanations, one in each lane, say of a gap: their responses, the factors of their covariances,
-/// noise included, degrees of freedom of these, minus the logarithm of the density at its peak, and by how
-/// much errors widen what is outside the span. Lanes beyond the explanations say nothing.
+/// Responses of as many explanations as there are lanes, or fewer, a component each.
+std::vector<LaneNumbers> responses_of(std::span<const Expected> expected);
+
+/// How explanations, one in each lane, are known: degrees of freedom of their covariances, minus the
+/// logarithm of the density at its peak, and by how much errors widen what is outside the span. Lanes beyond
+/// the explanations say nothing.
 struct Predictions {
   std::size_t size = 0;
-  std::vector<LaneNumbers> responses;
+  LaneNumbers dof, log_volume, widening, log_widening;
+};
+
+/// Room for the covariances of one prediction at a time, which are large, and for a gap.
+struct Workspace {
+  explicit Workspace(Eigen::Index size)
+      : factors(size), missed(static_cast<std::size_t>(size)), solved(missed.size()) {}
   LaneFactors factors;
-  LaneNumbers dof, log_volume, widening;
+  std::vector<LaneNumbers> missed, solved;
 };
 
 /// How well each of some predictions fits: logarithm of the density, and Mahalanobis distance squared.
@@ -56,23 +65,26 @@ class ReducedSpace {
     return reducer_ * covariance * reducer_.transpose();
   }
   Signature reduced(Signature signature) const;
-  ReducedGap gap(const Eigen::VectorXd& values) const { return {reduced(values), outside(values)}; }
+  ReducedGap gap(const Eigen::VectorXd& values) const;
   Eigen::Index size() const { return reducer_.rows(); }
   /// The square of what is outside the span.
   double outside(const Eigen::VectorXd& v) const;
 
   /// Of as many explanations as there are lanes, or fewer. What runs differ by counts so many times in terms
-  /// of standard deviations.
-  Predictions predict(std::span<const Expected> expected, double scale = 1.0) const;
+  /// of standard deviations. Leaves the factors of their covariances, noise included, in `room`.
+  Predictions predict(std::span<const Expected> expected, double scale, Workspace& room) const;
 
-  /// The density is the multivariate t of Sellentin & Heavens (2016, MNRAS 456, L132).
-  Fits fit(const ReducedGap& gap, const Predictions& predictions) const;
+  /// With the factors that `room` holds of the predictions. The density is the multivariate t of Sellentin &
+  /// Heavens (2016, MNRAS 456, L132).
+  Fits fit(const ReducedGap& gap, const std::vector<LaneNumbers>& responses, const Predictions& predictions,
+           Workspace& room) const;
 
   /// Parts of the log-likelihood, within the span at a χ² and outside it, where the noise's standard
   /// deviation is so many times as large.
   double log_within(const Predictions& predictions, std::size_t lane, double chi_squared,
                     double factor) const;
-  double log_outside(const Predictions& predictions, std::size_t lane, double outside, double factor) const;
+  double log_outside(const Predictions& predictions, std::size_t lane, const ReducedGap& gap,
+                     double factor) const;
 
  private:
   Eigen::VectorXd whiten(const Eigen::VectorXd& v) const { return factor_.matrixL().solve(v); }
@@ -85,7 +97,7 @@ class ReducedSpace {
   double dof_;
   Eigen::MatrixXd reducer_;  // whitens, and takes what is along orthonormal directions
   double dimensions_ = 0.0;  // outside the span
-  double outside_scale_ = 1.0, outside_dof_ = 1.0;
+  double outside_scale_ = 1.0, log_outside_scale_ = 0.0, outside_dof_ = 1.0;
   double log_chi_ = 0.0;  // normalisation of the density outside
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/parallel.h"
 #include "dem_core/linear/joints.h"
 #include "dem_core/linear/stiffness_sensitivity.h"
 #include "diagnosis/thresholds.h"
@@ -226,14 +227,16 @@ PlaceStiffness place_stiffness(const dem_core::Simulation& specimen, double stra
   const RegionFit fit = fit_regions(sensitivity, prior, variance, rows_of(difference));
   // Members scatter alike from bead to bead, which single beads' variances do not say: what members
   // themselves come to, taken for the experiment, scales the errors.
-  std::vector<double> maxima;
-  double square = 0.0;
-  for (const auto& null : null_differences(beads, 1)) {
-    const RegionFit of_null = fit_regions(sensitivity, prior, variance, rows_of(null));
+  const auto nulls = null_differences(beads, 1);
+  std::vector<double> maxima(nulls.size()), squares(nulls.size());
+  for_blocks(nulls.size(), 1, [&](std::size_t k, std::size_t) {
+    const RegionFit of_null = fit_regions(sensitivity, prior, variance, rows_of(nulls[k]));
     const Eigen::VectorXd z = (shares * of_null.change).cwiseQuotient(errors_of(shares, of_null));
-    maxima.push_back(z.cwiseAbs().maxCoeff());
-    square += z.squaredNorm() / static_cast<double>(z.size());
-  }
+    maxima[k] = z.cwiseAbs().maxCoeff();
+    squares[k] = z.squaredNorm() / static_cast<double>(z.size());
+  });
+  double square = 0.0;
+  for (const double one : squares) square += one;
   const double scale = std::max(1.0, std::sqrt(square / static_cast<double>(maxima.size())));
 
   PlaceStiffness found;

@@ -40,7 +40,8 @@ class Lanes : public ::testing::TestWithParam<int> {
     }
     factors.add(first, of_first), factors.add(second, of_second);
     factors.factor();
-    return {factors.half_log_determinants(), factors.squared(x)};
+    std::vector<LaneNumbers> solved(x.size());
+    return {factors.half_log_determinants(), factors.squared(x, solved)};
   }
 };
 
