@@ -61,7 +61,8 @@ std::vector<double> CsvTable::numbers(const std::string& column, bool empty_is_n
       values[row] = std::numeric_limits<double>::quiet_NaN();
       continue;
     }
-    values[row] = parse<double>(cells[row], [&] { return where(row); }, column, "a number");
+    values[row] = parse<double>(
+        cells[row], [&] { return where(row); }, column, "a number");
     if (!range.holds(values[row])) require_in_range(where(row), "column " + column, range, values[row]);
   }
   return values;
@@ -71,7 +72,8 @@ std::vector<long long> CsvTable::integers(const std::string& column) const {
   const auto& cells = cells_.at(column);
   std::vector<long long> values(cells.size());
   for (std::size_t row = 0; row < cells.size(); ++row)
-    values[row] = parse<long long>(cells[row], [&] { return where(row); }, column, "an integer");
+    values[row] = parse<long long>(
+        cells[row], [&] { return where(row); }, column, "an integer");
   return values;
 }
 
