@@ -45,6 +45,7 @@ struct Hypothesis {
 
 /// Effects that an explanation names: none in "none", "unknown" and kOtherPairs, two in "a+b".
 std::vector<std::string> effects_in(const std::string& id);
+/// Whether it names two effects.
 inline bool names_two(const std::string& id) {
   return id.find('+') != std::string::npos;
 }

@@ -48,7 +48,7 @@ class MagnitudeGrid {
   struct Cell {
     double theta = 0.0, width = 0.0;
   };
-  /// Of each effect.
+  /// Of each effect; of one effect, the first.
   using Cells = std::array<Cell, 2>;
   struct Place {
     Cells cells;
