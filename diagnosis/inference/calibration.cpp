@@ -71,8 +71,7 @@ Terms terms_of(const Replayed& one) {
   for (const auto& h : one.said) {
     if (h.id == kUnknown || (h.id != truth && h.log_evidence < best - kHopeless)) continue;
     if (h.id == truth) terms.truth = terms.all.size();
-    terms.all.push_back({std::log(std::max(1e-300, h.probability)) - h.log_evidence, h.log_evidence,
-                         names_two(h.id) ? beyond_plainer(h, one.said) : 0.0});
+    terms.all.push_back({h.log_prior, h.log_evidence, names_two(h.id) ? beyond_plainer(h, one.said) : 0.0});
   }
   return terms;
 }

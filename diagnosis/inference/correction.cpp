@@ -88,8 +88,7 @@ std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction
   const double of_pairs = 1.0 / correction.temperature_of_pairs - 1.0 / correction.temperature;
   std::vector<double> logs;
   for (const auto& h : said) {
-    logs.push_back(std::log(std::max(1e-300, h.probability)) +
-                   h.log_evidence * (1.0 / correction.temperature - 1.0));
+    logs.push_back(h.log_prior + h.log_evidence / correction.temperature);
     if (is_pair(h)) logs.back() += of_pairs * beyond_plainer(h, said);
     if (by_misfits && h.id == kUnknown) logs.back() = -std::numeric_limits<double>::infinity();
   }

@@ -58,7 +58,10 @@ Hypothesis unknown(const std::vector<Weighed>& known, const Priors& priors) {
 void make_probabilities(std::vector<Hypothesis>& hypotheses,
                         const std::function<double(const Hypothesis&)>& prior) {
   std::vector<double> log_weight;
-  for (const auto& h : hypotheses) log_weight.push_back(h.log_evidence + std::log(prior(h)));
+  for (auto& h : hypotheses) {
+    h.log_prior = std::log(prior(h));
+    log_weight.push_back(h.log_prior + h.log_evidence);
+  }
   const double total = log_sum(log_weight);
   for (std::size_t k = 0; k < hypotheses.size(); ++k)
     hypotheses[k].probability = std::exp(log_weight[k] - total);

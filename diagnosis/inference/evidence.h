@@ -41,6 +41,7 @@ struct Hypothesis {
   std::vector<Magnitude> magnitudes;  ///< one per effect
   double chi_squared = 0.0;           ///< at the best magnitudes
   bool run = true;                    ///< of a pair: it was run what they do together
+  double log_prior = 0.0;             ///< up to a term that all have
 };
 
 /// Effects that an explanation names: none in "none", "unknown" and kOtherPairs, two in "a+b".

@@ -45,6 +45,12 @@ std::vector<Replayed> runs(double sharper, double theta_error, std::uint64_t see
   return all;
 }
 
+/// Explanations whose priors are what their probabilities have beyond their evidences.
+std::vector<Hypothesis> with_priors(std::vector<Hypothesis> all) {
+  for (auto& h : all) h.log_prior = std::log(h.probability) - h.log_evidence;
+  return all;
+}
+
 TEST(Calibration, LeavesRightProbabilitiesAlone) {
   const Promise promise = promise_of(runs(1.0, 1.0, 1), 0.95);
   EXPECT_EQ(promise.cases, static_cast<std::size_t>(kMembers * kOfMember));
@@ -165,7 +171,7 @@ std::vector<Hypothesis> with_pairs() {
                                  {"b+c", 2.5, 0.08, {}, 7.0},    {"b+d", 1.5, 0.07, {}, 8.0},
                                  {"unknown", 0.5, 0.05, {}, 9.0}};
   all[4].run = all[5].run = false;
-  return all;
+  return with_priors(all);
 }
 
 double of(const std::vector<Hypothesis>& said, const std::string& id) {
@@ -194,7 +200,8 @@ TEST(Calibration, WhatIsUnknownIsJudgedByWhatReplayedRunsLeave) {
   for (int k = 1; k < 100; ++k) correction.misfits.push_back(k);
   const auto odds = [&](double of_a, double of_b) {
     const auto said = corrected(
-        {{"a", 0.0, 0.6, {}, of_a}, {"b", 0.0, 0.3, {}, of_b}, {"unknown", 9.0, 0.1, {}, 0.0}}, correction);
+        with_priors({{"a", 0.0, 0.6, {}, of_a}, {"b", 0.0, 0.3, {}, of_b}, {"unknown", 9.0, 0.1, {}, 0.0}}),
+        correction);
     const double unknown = of(said, "unknown");
     EXPECT_NEAR(of(said, "a") / of(said, "b"), 2.0, 1e-12);
     EXPECT_NEAR(of(said, "a") + of(said, "b") + unknown, 1.0, 1e-12);
@@ -205,6 +212,33 @@ TEST(Calibration, WhatIsUnknownIsJudgedByWhatReplayedRunsLeave) {
   EXPECT_NEAR(odds(95.5, 95.5), of_one_in_twenty, 1e-9);
   EXPECT_NEAR(odds(95.5, 0.5), (2.0 * of_one_in_twenty + 0.1) / 3.0, 1e-9);
   EXPECT_NEAR(odds(1e9, 1e9), 0.1 * std::pow(0.01, -1.5), 1e-9);
+}
+
+// Strong gaps leave evidences that no floating-point probability has room for.
+TEST(Calibration, WhatIsOutOfTheQuestionIsSoAtAnyTemperature) {
+  for (const double temperature : {1.0, 1.5, 5.0}) {
+    Correction correction;
+    correction.temperature = correction.temperature_of_pairs = temperature;
+    const auto said = corrected({{"a", -190.0, 1.0, {}, 0.0},
+                                 {"b", -3000.0, 0.0, {}, 0.0},
+                                 {"none", -15000.0, 0.0, {}, 0.0},
+                                 {"b+c", -20000.0, 0.0, {}, 0.0}},
+                                correction);
+    EXPECT_EQ(said.front().id, "a");
+    EXPECT_DOUBLE_EQ(said.front().probability, 1.0);
+    EXPECT_EQ(of(said, "none") + of(said, "b+c"), 0.0);
+  }
+}
+
+TEST(Calibration, TruthsThatAreOutOfTheQuestionAreNotHeld) {
+  const auto temperature = [](double of_truths) {
+    auto all = runs(1.0, 1.0, 12);
+    for (std::size_t k = 0; k < all.size(); k += 10)
+      for (auto& h : all[k].said)
+        if (h.id == truth_of(all[k])) h.log_evidence += of_truths;
+    return promise_of(all, 0.95).correction.temperature;
+  };
+  EXPECT_EQ(temperature(-9000.0), temperature(-20.0));
 }
 
 TEST(Calibration, APairHasWhatItsEffectsHaveAndItsOwnAtItsOwnTemperature) {
@@ -341,9 +375,11 @@ TEST(Calibration, EffectsThatLookLikeNoneAreListed) {
   for (auto& one : all)  // c is never told from none
     if (one.truth.contains("c"))
       for (auto& h : one.said) h.probability = h.id == "none" ? 0.97 : 0.01;
-  for (auto& one : all)
+  for (auto& one : all) {
+    one.said = with_priors(std::move(one.said));
     std::stable_sort(one.said.begin(), one.said.end(),
                      [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  }
   const Promise promise = promise_of(all, 0.8);
   for (const auto& [id, from] : promise.correction.told_from) EXPECT_EQ(from.tells(1.0), id != "c") << id;
   // None stands for it.
