@@ -99,8 +99,7 @@ Eigen::VectorXd joined(const std::vector<Eigen::VectorXd>& parts) {
 }
 
 /// Mean square of how far neighbours part along an axis, µm², in one scan's part of a field.
-double parting(const FollowedBeads& scan, const Eigen::VectorXd& part) {
-  const auto pairs = candidate_bridges(scan.beads, scan.cutoff);
+double parting(const std::vector<Bridge>& pairs, const Eigen::VectorXd& part) {
   double sum = 0.0;
   for (const auto& pair : pairs)
     sum += (part.segment<3>(3 * pair.j) - part.segment<3>(3 * pair.i)).squaredNorm();
@@ -112,11 +111,12 @@ double parting(const FollowedBeads& scan, const Eigen::VectorXd& part) {
 std::vector<double> unstated_errors(const FieldBank& bank, const std::vector<DesignPoint>& points) {
   std::vector<double> found;
   for (std::size_t s = 0; s < bank.scans.size(); ++s) {
+    const auto pairs = candidate_bridges(bank.scans[s].beads, bank.scans[s].cutoff);
     double believed = 0.0, count = 0.0;
     for (std::size_t k = 0; k < points.size(); ++k)
       if (points[k].id.empty() && bank.of_runs[k])
-        believed += parting(bank.scans[s], part_of(*bank.of_runs[k], bank.scans, s)), count += 1.0;
-    const double more = parting(bank.scans[s], part_of(bank.measured, bank.scans, s)) - believed / count;
+        believed += parting(pairs, part_of(*bank.of_runs[k], bank.scans, s)), count += 1.0;
+    const double more = parting(pairs, part_of(bank.measured, bank.scans, s)) - believed / count;
     found.push_back(std::sqrt(std::max(0.0, 0.5 * more - std::pow(bank.scans[s].sigma_um, 2))));
   }
   return found;
@@ -130,20 +130,24 @@ double error_of_places(const Changes& changes) {
   return 1e6 * effects::actual_beads({Bead{}}, sample).front().sigma_centre;
 }
 
-/// Beads are where they were found, in either scan: where an effect makes that uncertain, so is their motion,
-/// by root two as much. Errors that are the same in both scans cancel: there are no larger ones than the
-/// measured motion shows.
+/// Displacements are differences of two places: where an effect makes those uncertain, they have the error of
+/// both, that at rest in every scan. Errors that are the same in both cancel: there are no larger ones than
+/// the measured motion shows.
 void add_errors_of_places(const std::vector<DesignPoint>& points, FieldBank& bank) {
   const auto unstated = unstated_errors(bank, points);
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const double error = M_SQRT2 * error_of_places(points[k].changes);
+    const double error = error_of_places(points[k].changes);
     if (error == 0.0 || !bank.of_runs[k]) continue;
-    const std::uint64_t seed = random_bits(kSeedOfErrors, points[k].seed);
+    const std::uint64_t draws = random_bits(kSeedOfErrors, points[k].seed);
     Eigen::Index row = 0;
     for (std::size_t s = 0; s < bank.scans.size(); ++s)
-      for (std::size_t n = 0; n < 3 * bank.scans[s].beads.size(); ++n, ++row)
-        (*bank.of_runs[k])[row] +=
-            std::min(error, unstated[s]) * random_normal(seed, static_cast<std::uint64_t>(row));
+      for (const Bead& bead : bank.scans[s].beads)
+        for (std::uint64_t axis = 0; axis < 3; ++axis, ++row) {
+          const std::uint64_t place = 3 * static_cast<std::uint64_t>(bead.id) + axis;
+          (*bank.of_runs[k])[row] +=
+              std::min(error, M_SQRT1_2 * unstated[s]) *
+              (random_normal(random_bits(draws, s + 1), place) - random_normal(random_bits(draws, 0), place));
+        }
   }
 }
 

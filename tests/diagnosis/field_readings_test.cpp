@@ -48,12 +48,16 @@ class FieldReadingsTest : public ::testing::Test {
     Eigen::MatrixXd model;
   };
 
-  Readings read(const std::vector<Followed>& rows, double sigma_um = 0.1) {
-    write_text(folder / "scan.csv", test::followed_text(rows, kStrain, 1e-6, sigma_um));
+  FieldBank bank_of(const std::string& scan) {
+    write_text(folder / "scan.csv", scan);
     experiment = read_experiment(folder / "e.toml");
     plan.conditions = {{experiment.sample, folder / "beads.csv", {0}}};
     plan.size = {1.0};
-    const FieldBank bank = field_bank(experiment, plan, 0, tests).value();
+    return field_bank(experiment, plan, 0, tests).value();
+  }
+
+  Readings read(const std::vector<Followed>& rows, double sigma_um = 0.1) {
+    const FieldBank bank = bank_of(test::followed_text(rows, kStrain, 1e-6, sigma_um));
     const FieldReader reader(bank, plan.points);
     Readings readings{
         reader.measured(bank), reader.of_runs(bank, plan.points), reader.by_noise(bank, plan.points), {}};
@@ -170,6 +174,19 @@ TEST_F(FieldReadingsTest, ErrorsOfPlacesAreNoLargerThanTheMotionShows) {
   const Readings none = read(bent(0.0)), some = read(seen_with(1e-6, bent(0.0)));
   EXPECT_NEAR(of_run(none, 9, "pairs_sliding"), of_run(none, 0, "pairs_sliding"), 0.3);
   EXPECT_NEAR(of_run(some, 9, "pairs_sliding"), named(some, "pairs_sliding"), 0.1);
+}
+
+TEST_F(FieldReadingsTest, TheErrorOfPlacesAtRestIsInEveryScan) {
+  add_misplaced(3.0);
+  const auto rows = seen_with(M_SQRT2 * 3e-6, bent(0.0));
+  const std::string second = test::followed_text(rows, kStrain);
+  const FieldBank bank =
+      bank_of(test::followed_text(rows, 0.5 * kStrain) + second.substr(second.find('\n') + 1));
+  const Eigen::VectorXd errors = *bank.of_runs[9] - *bank.of_runs[0];
+  const Eigen::Index size = errors.size() / 2;
+  const double first = errors.head(size).norm(), last = errors.tail(size).norm();
+  EXPECT_NEAR(first / std::sqrt(static_cast<double>(size)), M_SQRT2 * 3.0, 0.2);
+  EXPECT_NEAR(errors.head(size).dot(errors.tail(size)) / (first * last), 0.5, 0.1);
 }
 
 TEST_F(FieldReadingsTest, RunsThatFailedShowNothing) {
