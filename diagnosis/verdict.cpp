@@ -63,8 +63,12 @@ std::string cause(const Diagnosis& diagnosis) {
         "The cause is not known: two effects at once, or something like two, explain the gap best, "
         "probability {}, but no run has both (--runs){}.",
         probability, rest.empty() ? "" : "; not excluded: " + joined(rest, kListed));
-  if (rest.empty()) return fmt::format("The cause is {}, probability {}.", in_words(best), probability);
-  if (best.probability >= kThresholds.likely)
+  const bool likely = best.probability >= kThresholds.likely;
+  if (rest.empty())
+    return likely ? fmt::format("The cause is {}, probability {}.", in_words(best), probability)
+                  : fmt::format("The most probable cause is {}, but with a probability of {} alone.",
+                                in_words(best), probability);
+  if (likely)
     return fmt::format("The most probable cause is {}, probability {}; not excluded: {}.", in_words(best),
                        probability, joined(rest, kListed));
   return fmt::format(

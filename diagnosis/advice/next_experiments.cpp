@@ -186,7 +186,7 @@ Question question_after(const Diagnosis& diagnosis) {
 
 bool is_settled(const Diagnosis& diagnosis) {
   const auto& set = diagnosis.ambiguity_set;
-  if (set.size() > 1) return false;
+  if (set.size() > 1 || diagnosis.explanations.front().probability < kThresholds.likely) return false;
   return set.empty() || set.front() != "none" || question_after(diagnosis).effects.empty();
 }
 

@@ -21,7 +21,8 @@ struct Question {
 /// The effects that lead or are in the set, by their probabilities and magnitudes a posteriori.
 Question question_after(const Diagnosis& diagnosis);
 
-/// Whether one explanation is left and, where that is none, no effect is in question that none stands for.
+/// Whether one explanation is left that is more likely than not and, where that is none, no effect is in
+/// question that none stands for.
 bool is_settled(const Diagnosis& diagnosis);
 
 /// Every effect of the plan alike, or those of `about` alone where it has any, and none.

@@ -170,6 +170,13 @@ TEST(Verdict, NoneIsNotTheEndWhereWhatItStandsForIsInQuestion) {
   EXPECT_FALSE(is_settled(told({missing(0.9), bare("none", 0.1)}, 2)));
 }
 
+TEST(Verdict, ALoneMemberOfASetThatIsNotLikelyIsNoEnd) {
+  const Diagnosis d = told({missing(0.42), bare("platen_tilt", 0.3)}, 1);
+  EXPECT_TRUE(verdict_of(d).starts_with("The most probable cause is bridges missing")) << verdict_of(d);
+  EXPECT_TRUE(says(d, "but with a probability of 42 % alone. What to measure next")) << verdict_of(d);
+  EXPECT_FALSE(is_settled(d));
+}
+
 TEST(Verdict, LongSetsAreCutShort) {
   const Diagnosis d = told({missing(0.6), bare("platen_tilt", 0.1), bare("bond_damage", 0.1),
                             bare("none", 0.1), bare("unknown", 0.1)},
