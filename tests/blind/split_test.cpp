@@ -34,7 +34,7 @@ std::string refusal(const std::string& what, const std::string& by) {
 
 TEST(Split, ReadsEveryCommittedFile) {
   for (const char* name :
-       {"development2", "development4", "sealed2", "sealed4", "sealed5", "sealed", "small"}) {
+       {"development2", "development4", "development5", "sealed2", "sealed4", "sealed5", "sealed", "small"}) {
     const Split split = read_split(
         fs::path(pendular::test::source_folder()) / "samples/blind" / (std::string(name) + ".toml"), {});
     EXPECT_EQ(split.name, name);
