@@ -186,8 +186,9 @@ Question question_after(const Diagnosis& diagnosis) {
 
 bool is_settled(const Diagnosis& diagnosis) {
   const auto& set = diagnosis.ambiguity_set;
+  if (set.empty()) return true;
   if (set.size() > 1 || diagnosis.explanations.front().probability < kThresholds.likely) return false;
-  return set.empty() || set.front() != "none" || question_after(diagnosis).effects.empty();
+  return set.front() != "none" || question_after(diagnosis).effects.empty();
 }
 
 Question question_before(const BankPlan& plan, const std::set<std::string>& about) {
