@@ -20,7 +20,7 @@ namespace {
 // Margins of a listing: what a bead at its present speed, or at this share of a neighbour's, which may hit
 // it, moves in so many steps, between two shares of the mean diameter. The least one leaves room for beads
 // that tremble, the largest keeps lists short.
-constexpr double kStepsBetweenListings = 800.0, kOfNeighbour = 0.5, kLeastMargin = 0.002,
+constexpr double kStepsBetweenListings = 1600.0, kOfNeighbour = 0.5, kLeastMargin = 0.002,
                  kLargestMargin = 0.3;
 
 constexpr double kHertzOverlap = 0.005;  // over D, where both laws of glass push alike
@@ -135,7 +135,7 @@ Listing listing_of(const Simulation& simulation, double least) {
   const auto& beads = simulation.beads;
   const double diameter = beads.mean_diameter();
   Listing listing;
-  listing.at = beads.position;
+  for (const auto& place : beads.position) listing.at.push_back(place.cast<float>().cast<double>());
   for (const double speed : speeds_to_come(simulation))
     listing.margin.push_back(margin(speed, simulation.dt, diameter, least));
   listing.bottom_at = simulation.bottom.z;
@@ -258,7 +258,7 @@ void list_pairs(Simulation& simulation, double least) {
   std::vector<double> reach;
   for (std::size_t k = 0; k < beads.size(); ++k)
     reach.push_back(2.0 * (beads.radius[k] + simulation.listing.margin[k]));
-  const auto near = pairs_within(beads.position, reach, 0.0);
+  const auto near = pairs_within(simulation.listing.at, reach, 0.0);
   constexpr std::size_t kBeadsPerTask = 512;
   std::vector<std::vector<Pair>> parts((beads.size() + kBeadsPerTask - 1) / kBeadsPerTask);
   for_blocks(beads.size(), kBeadsPerTask, [&](std::size_t first, std::size_t last) {

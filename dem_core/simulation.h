@@ -58,7 +58,7 @@ struct Work {
 /// margin. Margins follow speed, so that a few loose beads that fly do not have all pairs listed anew, and
 /// those at rest are not listed with neighbours that they will not touch.
 struct Listing {
-  std::vector<Vec3> at;                  ///< positions of the beads
+  std::vector<Vec3> at;                  ///< positions of the beads, as single precision has them
   std::vector<double> margin;            ///< of the beads, m
   double bottom_at = 0.0, top_at = 0.0;  ///< places of the platens' faces, m
   double platen_margin = 0.0;            ///< m

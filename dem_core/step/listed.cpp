@@ -12,7 +12,7 @@ namespace pendular::dem_core {
 namespace {
 
 constexpr std::size_t kPairsPerTask = 2048;
-constexpr float kOfMargin = 0.999F;  // displacements are floats
+constexpr double kOfMargin = 0.999;  // displacements over margins are rounded
 
 /// Every third bit of the result, from bit 0 up, is one of the 21 of `cell`.
 std::uint64_t spread_bits(std::uint64_t cell) {
@@ -83,8 +83,8 @@ NearPlatens near_platens(const Simulation& simulation, std::size_t k) {
           z + reach - simulation.top.relief[k] >= listing.top_at};
 }
 
-bool listing_due(const Simulation& simulation, const float (&farthest)[3]) {
-  if (std::hypot(farthest[0], farthest[1], farthest[2]) > kOfMargin) return true;
+bool listing_due(const Simulation& simulation, double farthest) {
+  if (farthest > kOfMargin * kOfMargin) return true;
   const Listing& listing = simulation.listing;
   return std::max(std::fabs(simulation.bottom.z - listing.bottom_at),
                   std::fabs(simulation.top.z - listing.top_at)) > listing.platen_margin;

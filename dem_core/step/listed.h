@@ -27,8 +27,8 @@ struct NearPlatens {
 NearPlatens near_platens(const Simulation& simulation, std::size_t bead);
 
 /// Whether a bead or a platen may have moved by its margin; `farthest` is the largest displacement of a bead
-/// over its margin, along each axis.
-bool listing_due(const Simulation& simulation, const float (&farthest)[3]);
+/// over its margin, squared.
+bool listing_due(const Simulation& simulation, double farthest);
 
 /// Where a table has a pair; contact and bend may be absent.
 struct PairPlace {

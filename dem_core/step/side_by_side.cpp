@@ -68,8 +68,7 @@ void SideBySide::end_step(std::size_t run) {
   simulation.work.damped += quanta_[run].energy * static_cast<double>(totals_.damped[run]);
   simulation.work.slipped += quanta_[run].energy * static_cast<double>(totals_.slipped[run]);
   advance_platens(simulation);
-  const float farthest[3] = {totals_.farthest_x[run], totals_.farthest_y[run], totals_.farthest_z[run]};
-  if (listing_due(simulation, farthest)) list_anew(run);
+  if (listing_due(simulation, totals_.farthest[run])) list_anew(run);
 }
 
 void SideBySide::change_bonds(std::size_t run, const BondEvolution& evolution, double elapsed) {

@@ -165,13 +165,6 @@ HWY_INLINE Lanes changed(Lanes per, std::int64_t* sum, const double* before) {
   return mul_add(per, total, load(before));
 }
 
-/// How far a bead has moved along one axis since its listing, over its margin.
-HWY_INLINE void reach(Lanes place, const float* listed, hn::Vec<Floats> per_margin, float* farthest) {
-  const Floats floats;
-  const auto moved = hn::Sub(hn::DemoteTo(floats, place.v), hn::Load(floats, listed));
-  hn::Store(hn::Max(hn::Load(floats, farthest), hn::Abs(hn::Mul(moved, per_margin))), floats, farthest);
-}
-
 void MoveSideBySide(SideBeads& beads, std::size_t size, const SideLaw& law, SideTotals& totals) {
   for (std::size_t k = 0; k < size; ++k)
     for (std::size_t lane = 0; lane < kRuns; lane += kLanes) {
@@ -180,17 +173,18 @@ void MoveSideBySide(SideBeads& beads, std::size_t size, const SideLaw& law, Side
       const SideInertia& inertia = beads.inertia[k];
       const Lanes dt = load(law.dt + lane), per_mass = load(inertia.per_mass + lane),
                   per_inertia = load(inertia.per_inertia + lane);
-      const auto per_margin = hn::Load(Floats(), inertia.per_margin + lane);
-      const auto move = [&](double* place, double* velocity, std::int64_t* force, const float* listed,
-                            float* farthest) {
+      // Returns how far the bead has moved along the axis since its listing.
+      const auto move = [&](double* place, double* velocity, std::int64_t* force, const float* listed) {
         const Lanes now = changed(per_mass, force + lane, velocity + lane);
         const Lanes there = mul_add(dt, now, load(place + lane));
         store(now, velocity + lane), store(there, place + lane);
-        reach(there, listed + lane, per_margin, farthest + lane);
+        return there - load(listed + lane);
       };
-      move(bead.x, bead.vx, sums.fx, inertia.listed_x, totals.farthest_x);
-      move(bead.y, bead.vy, sums.fy, inertia.listed_y, totals.farthest_y);
-      move(bead.z, bead.vz, sums.fz, inertia.listed_z, totals.farthest_z);
+      const Triple<Lanes> moved = {move(bead.x, bead.vx, sums.fx, inertia.listed_x),
+                                   move(bead.y, bead.vy, sums.fy, inertia.listed_y),
+                                   move(bead.z, bead.vz, sums.fz, inertia.listed_z)};
+      const Lanes over_margin = load(inertia.per_margin_squared + lane) * dot(moved, moved);
+      store(larger(load(totals.farthest + lane), over_margin), totals.farthest + lane);
       store(changed(per_inertia, sums.tx + lane, bead.wx + lane), bead.wx + lane);
       store(changed(per_inertia, sums.ty + lane, bead.wy + lane), bead.wy + lane);
       store(changed(per_inertia, sums.tz + lane, bead.wz + lane), bead.wz + lane);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -143,7 +144,7 @@ void SideBySide::load_listing(std::size_t run) {
     bead.listed_x[run] = static_cast<float>(listing.at[k].x());
     bead.listed_y[run] = static_cast<float>(listing.at[k].y());
     bead.listed_z[run] = static_cast<float>(listing.at[k].z());
-    bead.per_margin[run] = static_cast<float>(1.0 / listing.margin[k]);
+    bead.per_margin_squared[run] = static_cast<float>(std::pow(listing.margin[k], -2));
   }
 }
 

@@ -24,7 +24,7 @@ struct alignas(64) SideSums {
 /// What it is moved by, and from where.
 struct alignas(64) SideInertia {
   BlockOf<double> per_mass, per_inertia;  ///< dt/m × quantum of forces, dt/I × quantum of torques
-  BlockOf<float> listed_x, listed_y, listed_z, per_margin;
+  BlockOf<float> listed_x, listed_y, listed_z, per_margin_squared;
 };
 
 struct SideBeads {
@@ -61,7 +61,7 @@ struct alignas(64) SideLaw {
 /// What one step adds to the sums of each run.
 struct alignas(64) SideTotals {
   BlockOf<std::int64_t> damped, slipped, bottom, top;  ///< in quanta
-  BlockOf<float> farthest_x, farthest_y, farthest_z;   ///< largest displacement over margin since listing
+  BlockOf<double> farthest;                            ///< largest displacement over margin, squared
 };
 
 /// A bond that breaks.

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <fmt/ranges.h>
+#include <hwy/cache_control.h>
 
 #include "base/error.h"
 
@@ -204,6 +205,9 @@ void advance(PairTable& pairs, BeadTable& beads, std::size_t first, std::size_t 
 template <bool bending>
 void advance(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<double>& law, LawParts parts,
              const PerQuantum& per) {
+  // Another core may have moved them.
+  for (const std::uint32_t row : chunk.foreign)
+    hwy::Prefetch(&beads.motion[row]), hwy::Prefetch(&beads.spin[row]);
   const WholeLanes::Tag tag;
   const Lanes zero = {hn::Zero(Lanes::Tag())};
   const Constants given = {{same(law.k_glass, zero), same(law.kt_glass, zero), same(law.per_overlap, zero),
@@ -231,6 +235,8 @@ void collect(BeadTable& beads, const Chunk& chunk) {
   const WholeRow row;
   std::int64_t* HWY_RESTRICT sums = beads.sums.data();
   for (const auto& incoming : chunk.incoming)
+    hwy::Prefetch(sums + kBeadRow * static_cast<std::size_t>(incoming.from));
+  for (const auto& incoming : chunk.incoming)
     for (std::size_t c = 0; c < kBeadRow; c += hn::Lanes(row)) {
       std::int64_t* HWY_RESTRICT from = sums + kBeadRow * static_cast<std::size_t>(incoming.from) + c;
       std::int64_t* HWY_RESTRICT to = sums + kBeadRow * static_cast<std::size_t>(incoming.to) + c;
@@ -239,22 +245,39 @@ void collect(BeadTable& beads, const Chunk& chunk) {
     }
 }
 
+/// Asks for a line of memory that is soon written: another core that has read it must give it up.
+HWY_INLINE void prefetch_to_write([[maybe_unused]] const void* line) {
+#if HWY_ARCH_X86
+  asm volatile("prefetchw %0" : : "m"(*static_cast<const char*>(line)));
+#endif
+}
+
+/// Of beads that are moved some beads later.
+HWY_INLINE void ask_for(const BeadTable& beads, std::size_t k) {
+  prefetch_to_write(&beads.motion[kBeadRow * k]);
+  prefetch_to_write(&beads.spin[kBeadRow * k]);
+  prefetch_to_write(&beads.sums[kBeadRow * k]);
+}
+
 void MoveBeads(BeadTable& beads, Chunk& chunk, double dt) {
+  constexpr std::size_t kAhead = 16;
   collect(beads, chunk);
   const Row row;
   const WholeRow whole;
   const hn::Rebind<float, Row> listed_row;
-  HWY_ALIGN float farthest[4] = {0.0F, 0.0F, 0.0F, 0.0F};
+  // The fourth numbers of a row stay as they are: the sums' are zero, and the position's is kept.
+  HWY_ALIGN constexpr double moves[4] = {1.0, 1.0, 1.0, 0.0};
   const auto step = hn::Set(row, dt);
-  for (std::size_t c = 0; c < 4; c += hn::Lanes(row)) {
-    // The fourth numbers of a row stay as they are: the sums' are zero, and the position's is kept.
-    HWY_ALIGN constexpr double moves[4] = {1.0, 1.0, 1.0, 0.0};
-    const auto moving = hn::Mul(step, hn::Load(row, moves + c));
-    auto reach = hn::Zero(listed_row);
-    for (std::size_t k = chunk.first_bead; k < chunk.last_bead; ++k) {
-      double* HWY_RESTRICT bead = beads.motion.data() + kBeadRow * k;
-      double* HWY_RESTRICT turning = beads.spin.data() + kBeadRow * k;
-      std::int64_t* HWY_RESTRICT sums = beads.sums.data() + kBeadRow * k;
+  auto farthest = hn::Zero(row);
+  for (std::size_t k = chunk.first_bead; k < chunk.last_bead; ++k) {
+    ask_for(beads, std::min(k + kAhead, chunk.last_bead - 1));
+    double* HWY_RESTRICT bead = beads.motion.data() + kBeadRow * k;
+    double* HWY_RESTRICT turning = beads.spin.data() + kBeadRow * k;
+    std::int64_t* HWY_RESTRICT sums = beads.sums.data() + kBeadRow * k;
+    const float* HWY_RESTRICT listed = beads.listed_rows.data() + 4 * k;
+    auto squares = hn::Zero(row);
+    for (std::size_t c = 0; c < 4; c += hn::Lanes(row)) {
+      const auto moving = hn::Mul(step, hn::Load(row, moves + c));
       const auto force = from_48_bits(row, hn::Load(whole, sums + c)),
                  torque = from_48_bits(row, hn::Load(whole, sums + 4 + c));
       const auto velocity = hn::MulAdd(hn::Set(row, bead[7]), force, hn::Load(row, bead + 4 + c));
@@ -265,13 +288,12 @@ void MoveBeads(BeadTable& beads, Chunk& chunk, double dt) {
       hn::Store(spin, row, turning + c);
       hn::Store(hn::Zero(whole), whole, sums + c);
       hn::Store(hn::Zero(whole), whole, sums + 4 + c);
-      const float* HWY_RESTRICT listed = beads.listed_rows.data() + 4 * k;
-      const auto moved = hn::Sub(hn::DemoteTo(listed_row, position), hn::Load(listed_row, listed + c));
-      reach = hn::Max(reach, hn::Abs(hn::Mul(moved, hn::Set(listed_row, listed[3]))));
+      const auto moved = hn::Sub(position, hn::PromoteTo(row, hn::Load(listed_row, listed + c)));
+      squares = hn::MulAdd(moved, moved, squares);
     }
-    hn::Store(reach, listed_row, farthest + c);
+    farthest = hn::Max(farthest, hn::Mul(hn::Set(row, turning[5]), hn::SumOfLanes(row, squares)));
   }
-  for (int axis = 0; axis < 3; ++axis) chunk.farthest[axis] = farthest[axis];
+  chunk.farthest = hn::GetLane(farthest);
 }
 
 }  // namespace

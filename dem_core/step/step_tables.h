@@ -86,8 +86,8 @@ inline Vec3 get(const double* row) {
 struct BeadTable {
   std::size_t size = 0;
   AlignedVector<double> motion;      ///< x y z R | vx vy vz dt/m × quantum of forces
-  AlignedVector<double> spin;        ///< ωx ωy ωz R | dt/I × quantum of torques, and three more
-  AlignedVector<float> listed_rows;  ///< x y z when the pairs were listed, 1/margin
+  AlignedVector<double> spin;        ///< ωx ωy ωz R | dt/I × quantum of torques, 1/margin², and two more
+  AlignedVector<float> listed_rows;  ///< x y z R when the pairs were listed
   /// Force and 0 | torque and 0, in quanta: a row per bead, which its own chunk adds to, then those that
   /// other chunks add to.
   AlignedVector<std::int64_t> sums;
@@ -106,12 +106,13 @@ struct Chunk {
     std::uint32_t from, to;
   };
   std::vector<Incoming> incoming;
+  std::vector<std::uint32_t>
+      foreign;  ///< where in the tables of beads the rows of others' begin that it reads
   AlignedVector<PlatenBlock> near_bottom, near_top;
 
   // What the chunk adds to the sums over the specimen in one step, in quanta.
   std::int64_t damped = 0, slipped = 0, bottom = 0, top = 0;
-  float farthest[3] = {0.0F, 0.0F,
-                       0.0F};           ///< along each axis, largest displacement over margin since listing
+  double farthest = 0.0;                ///< largest displacement over margin since listing, squared
   std::vector<std::uint32_t> breaking;  ///< pairs whose bond breaks: block × kBlock + place in it
 };
 

@@ -89,18 +89,18 @@ void Stepper::set_in_motion(double speed, const std::function<Vec3(const Vec3&)>
   simulation_.work.halted -= kinetic_energy();
 }
 
-/// A share's own chunks from its first on, then from the last on what others have not taken yet.
+/// A share's own chunks from its first on, then from the last on what others have not taken yet, but for the
+/// last one left of each: what a chunk brings with it from another core takes as long as waiting for it.
 void Stepper::advance_share(std::size_t share) {
   const FlushDenormals here;
+  const auto is_taken = [&](std::size_t c) { return taken_[c].flag.load(std::memory_order_relaxed); };
   const auto take = [&](std::size_t c) {
-    if (!taken_[c].flag.load(std::memory_order_relaxed) &&
-        !taken_[c].flag.exchange(true, std::memory_order_relaxed))
-      advance_chunk(c);
+    if (!is_taken(c) && !taken_[c].flag.exchange(true, std::memory_order_relaxed)) advance_chunk(c);
   };
   for (std::size_t c = shares_[share].first; c < shares_[share].last; ++c) take(c);
   for (std::size_t other = 1; other < shares_.size(); ++other) {
     const Share& of = shares_[(share + other) % shares_.size()];
-    for (std::size_t c = of.last; c > of.first; --c) take(c - 1);
+    for (std::size_t c = of.last; c > of.first + 1 && !is_taken(c - 2); --c) take(c - 1);
   }
 }
 
@@ -191,9 +191,8 @@ void Stepper::add_up() {
 }
 
 bool Stepper::listing_due() const {
-  float farthest[3] = {0.0F, 0.0F, 0.0F};
-  for (const auto& chunk : chunks_)
-    for (int axis = 0; axis < 3; ++axis) farthest[axis] = std::max(farthest[axis], chunk.farthest[axis]);
+  double farthest = 0.0;
+  for (const auto& chunk : chunks_) farthest = std::max(farthest, chunk.farthest);
   return dem_core::listing_due(simulation_, farthest);
 }
 

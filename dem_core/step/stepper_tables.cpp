@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -76,9 +77,10 @@ void Stepper::load_beads() {
     bead[3] = spin[3] = beads.radius[k];
     bead[7] = simulation_.dt / beads.mass[k] * quanta_.force;
     spin[4] = simulation_.dt / beads.inertia[k] * quanta_.torque;
+    spin[5] = std::pow(simulation_.listing.margin[k], -2);
     float* listed = &beads_.listed_rows[4 * row];
     for (int axis = 0; axis < 3; ++axis) listed[axis] = static_cast<float>(simulation_.listing.at[k][axis]);
-    listed[3] = static_cast<float>(1.0 / simulation_.listing.margin[k]);
+    listed[3] = static_cast<float>(beads.radius[k]);
   }
 }
 
@@ -182,6 +184,7 @@ void Stepper::share_sums() {
         met_by[row] = c;
         sum_of[row] = next++;
         chunks_[owner].incoming.push_back({sum_of[row], row});
+        chunks_[c].foreign.push_back(kBeadRow * row);
       }
       return sum_of[row];
     };

@@ -134,6 +134,23 @@ TEST(Stepper, ATurnedSpecimenMovesTheSame) {
     ASSERT_LT((turn * upright.beads.position[k] - beads.position[k]).norm(), 1e-13) << k;
 }
 
+TEST(Stepper, PairsAreListedAnewWhereOneBeadHasMovedByItsMargin) {
+  const auto listed_anew = [](const Vec3& moved_by_first, const Vec3& moved_by_second) {
+    Simulation simulation = build_simulation(disordered(4, 4), sample_a());
+    Listing& listing = simulation.listing;
+    listing.at[0] -= listing.margin[0] * moved_by_first;
+    listing.at[1] -= listing.margin[1] * moved_by_second;
+    const std::vector<Vec3> before = listing.at;
+    Stepper stepper(simulation);
+    stepper.step();
+    return simulation.listing.at != before;
+  };
+  EXPECT_FALSE(listed_anew({0.9, 0, 0}, {0, 0.9, 0})) << "no bead has moved by its margin";
+  EXPECT_FALSE(listed_anew({0.57, 0.57, 0.57}, {0, 0, 0}));
+  EXPECT_TRUE(listed_anew({0.58, 0.58, 0.58}, {0, 0, 0}));
+  EXPECT_TRUE(listed_anew({0, 0, 0}, {0.8, 0.8, 0}));
+}
+
 TEST(Stepper, WhenPairsAreListedDoesNotShow) {
   Simulation often = violent(sample_a(), disordered(4, 4)), seldom = often;
   Stepper first(often);
