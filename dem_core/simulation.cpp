@@ -163,15 +163,16 @@ std::span<const P> pairs_of(const std::vector<P>& pairs, std::size_t first, std:
 }
 
 /// Pairs that are near, with what the old list knows of them. Of the old list a pair drops out where it is
-/// neither bonded nor near; one whose glass touches only after an initial overlap (touch < 0) is remembered
-/// whatever its distance.
+/// neither bonded nor near; one whose glass touches only after an initial overlap (touch < 0), or whose
+/// damping is not booked yet as its bond has just broken, is remembered whatever its distance.
 std::vector<Pair> with_old(std::span<const IndexPair> near, std::span<const Pair> old) {
   std::vector<Pair> listed;
   listed.reserve(near.size() + near.size() / 8);
   auto next = old.begin();
   const auto keep_old_before = [&](const IndexPair& limit) {
     for (; next != old.end() && IndexPair(next->i, next->j) < limit; ++next)
-      if (next->bond >= 0 || next->properties.touch < 0.0) listed.push_back(*next);
+      if (next->bond >= 0 || next->properties.touch < 0.0 || next->history.closing != 0.0)
+        listed.push_back(*next);
   };
   for (const auto& [i, j] : near) {
     keep_old_before({i, j});

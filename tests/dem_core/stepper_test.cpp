@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "dem_core/step/listed.h"
 #include "dem_core/step/reference_step.h"
 #include "dem_core/step/step_kernels.h"
 #include "specimens.h"
@@ -149,6 +150,20 @@ TEST(Stepper, PairsAreListedAnewWhereOneBeadHasMovedByItsMargin) {
   EXPECT_FALSE(listed_anew({0.57, 0.57, 0.57}, {0, 0, 0}));
   EXPECT_TRUE(listed_anew({0.58, 0.58, 0.58}, {0, 0, 0}));
   EXPECT_TRUE(listed_anew({0, 0, 0}, {0.8, 0.8, 0}));
+}
+
+TEST(Stepper, APairIsListedUntilItsDampingIsBooked) {
+  const auto listed = [](double closing) {
+    Simulation simulation = build_simulation(disordered(4, 4), sample_a());
+    Pair& pair = simulation.pairs.front();
+    const int i = pair.i, j = pair.j;
+    pair.bond = -1, pair.history.closing = closing;
+    simulation.beads.position[i] += Vec3(-1, 0, 0);
+    list_pairs(simulation);
+    return find_pair(simulation, i, j) != nullptr;
+  };
+  EXPECT_TRUE(listed(1e-6));
+  EXPECT_FALSE(listed(0.0));
 }
 
 TEST(Stepper, WhenPairsAreListedDoesNotShow) {
