@@ -205,7 +205,7 @@ void advance(PairTable& pairs, BeadTable& beads, std::size_t first, std::size_t 
 template <bool bending>
 void advance(PairTable& pairs, BeadTable& beads, Chunk& chunk, const LawNumbers<double>& law, LawParts parts,
              const PerQuantum& per) {
-  // Another core may have moved them.
+  // Another core may have moved the beads of other chunks.
   for (const std::uint32_t row : chunk.foreign)
     hwy::Prefetch(&beads.motion[row]), hwy::Prefetch(&beads.spin[row]);
   const WholeLanes::Tag tag;
@@ -246,14 +246,16 @@ void collect(BeadTable& beads, const Chunk& chunk) {
 }
 
 /// Asks for a line of memory that is soon written: another core that has read it must give it up.
-HWY_INLINE void prefetch_to_write([[maybe_unused]] const void* line) {
-#if HWY_ARCH_X86
+HWY_INLINE void prefetch_to_write(const void* line) {
+#if HWY_ARCH_X86  // for the baseline of x86 the compiler asks for the line to be read
   asm volatile("prefetchw %0" : : "m"(*static_cast<const char*>(line)));
+#else
+  __builtin_prefetch(line, 1);
 #endif
 }
 
-/// Of beads that are moved some beads later.
-HWY_INLINE void ask_for(const BeadTable& beads, std::size_t k) {
+/// Asks for what moving a bead writes.
+HWY_INLINE void prefetch_to_move(const BeadTable& beads, std::size_t k) {
   prefetch_to_write(&beads.motion[kBeadRow * k]);
   prefetch_to_write(&beads.spin[kBeadRow * k]);
   prefetch_to_write(&beads.sums[kBeadRow * k]);
@@ -270,7 +272,7 @@ void MoveBeads(BeadTable& beads, Chunk& chunk, double dt) {
   const auto step = hn::Set(row, dt);
   auto farthest = hn::Zero(row);
   for (std::size_t k = chunk.first_bead; k < chunk.last_bead; ++k) {
-    ask_for(beads, std::min(k + kAhead, chunk.last_bead - 1));
+    prefetch_to_move(beads, std::min(k + kAhead, chunk.last_bead - 1));
     double* HWY_RESTRICT bead = beads.motion.data() + kBeadRow * k;
     double* HWY_RESTRICT turning = beads.spin.data() + kBeadRow * k;
     std::int64_t* HWY_RESTRICT sums = beads.sums.data() + kBeadRow * k;

@@ -106,8 +106,7 @@ struct Chunk {
     std::uint32_t from, to;
   };
   std::vector<Incoming> incoming;
-  std::vector<std::uint32_t>
-      foreign;  ///< where in the tables of beads the rows of others' begin that it reads
+  std::vector<std::uint32_t> foreign;  ///< rows of other chunks' beads that its pairs have, times kBeadRow
   AlignedVector<PlatenBlock> near_bottom, near_top;
 
   // What the chunk adds to the sums over the specimen in one step, in quanta.
