@@ -18,3 +18,20 @@ function(pendular_folder_library name)
   target_precompile_headers(${name} REUSE_FROM pendular_precompiled)
   target_link_libraries(${name} PUBLIC ${arg_PUBLIC} PRIVATE pendular_flags ${arg_PRIVATE})
 endfunction()
+
+# A shared object that a folder loads where it needs it (base/module.h): what takes long to load. The folder gets the
+# file's name as a macro: pendular-dicom as PENDULAR_DICOM. The run path of the programs finds it (cmake/options.cmake).
+#
+#   pendular_module(pendular-dicom FOR volume SOURCES dicom_library.cpp LINKS ITKIOGDCM)
+function(pendular_module name)
+  cmake_parse_arguments(arg "" "FOR" "SOURCES;LINKS" ${ARGN})
+  string(TOUPPER ${name} macro)
+  string(REPLACE - _ macro ${macro})
+  add_library(${name} MODULE ${arg_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_BINARY_DIR}/include/${arg_FOR})
+  target_link_libraries(${name} PRIVATE pendular_flags ${arg_LINKS})
+  set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PENDULAR_MODULES})
+  target_compile_definitions(${arg_FOR} PRIVATE ${macro}="$<TARGET_FILE_NAME:${name}>")
+  add_dependencies(${arg_FOR} ${name})
+  install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/pendular COMPONENT program)
+endfunction()

@@ -1,10 +1,6 @@
 #include "volume/read_dicom.h"
 
-#include "base/path_kind.h"
-#include "volume/itk_images.h"
-
-#include <itkGDCMImageIO.h>
-#include <itkGDCMSeriesFileNames.h>
+#include "volume/dicom_library.h"
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -15,6 +11,8 @@
 #include <fstream>
 
 #include "base/interrupt.h"
+#include "base/module.h"
+#include "base/path_kind.h"
 #include "base/process.h"
 #include "base/progress.h"
 #include "volume/format.h"
@@ -35,21 +33,14 @@ bool has_mark(const fs::path& file) {
 
 /// The files of a folder's only series, by position.
 std::vector<fs::path> series_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  guarded(folder, [&] {
-    const auto names = itk::GDCMSeriesFileNames::New();
-    names->SetUseSeriesDetails(true);
-    names->SetDirectory(folder.string());
-    const auto series = names->GetSeriesUIDs();
-    if (series.size() != 1)
-      bad_input("{}: found {} DICOM series, expected one", folder.string(), series.size());
-    for (const auto& name : names->GetFileNames(series.front())) files.emplace_back(name);
-  });
-  return files;
+  DicomSeries series;
+  guarded(folder, [&] { series = dicom_library().series(folder.string()); });
+  if (series.count != 1) bad_input("{}: found {} DICOM series, expected one", folder.string(), series.count);
+  return {series.files.begin(), series.files.end()};
 }
 
-itk::GDCMImageIO::Pointer opened(const fs::path& file) {
-  auto io = itk::GDCMImageIO::New();
+itk::ImageIOBase::Pointer opened(const fs::path& file) {
+  auto io = dicom_library().reader();
   io->SetFileName(file.string());
   read_header(*io, file);
   return io;
@@ -199,6 +190,12 @@ void try_reading(const fs::path& path, const ReadOptions& options) {
 
 }  // namespace
 
+const DicomLibrary& dicom_library() {
+  static const auto* found =
+      static_cast<const DicomLibrary*>(module_symbol(PENDULAR_DICOM, "pendular_dicom"));
+  return *found;
+}
+
 bool is_dicom(const fs::path& path) {
   if (is_file(path)) return has_mark(path);
   if (!is_folder(path)) return false;
@@ -212,6 +209,7 @@ bool is_dicom(const fs::path& path) {
 }
 
 Volume read_dicom(const fs::path& path, const ReadOptions& options) {
+  dicom_library();  // before the process apart, which would load it again
   try_reading(path, options);
   return read_series(path, options);
 }
