@@ -39,6 +39,7 @@ SpeltUnit spelt_unit(const std::string& unit, double largest) {
   if (unit == "fraction" || unit == "strain") return {" %", 100.0};
   if (unit == "1" || unit.empty()) return {""};
   if (unit == "um") return {" µm"};
+  if (unit == "um2") return {" µm²"};
   if (unit == "um/N") return {" µm/N"};
   if (unit == "degrees") return {"°"};
   if (unit == "multiple" || unit == "ratio") return {" times", 1.0, true};

@@ -66,17 +66,22 @@ std::string in_words(const Explanation& explanation) {
   return magnitudes.empty() ? name : name + ", " + magnitudes;
 }
 
+std::string name_in_words(std::string feature) {
+  for (const std::string unit : {"_um", "_um2"})
+    if (feature.ends_with(unit)) feature.resize(feature.size() - unit.size());
+  std::replace(feature.begin(), feature.end(), '_', ' ');
+  return feature;
+}
+
 std::string in_words(const Feature& feature) {
   if (feature.name == feature.observation) return feature.name;
-  std::string name =
-      feature.name.ends_with("_um") ? feature.name.substr(0, feature.name.size() - 3) : feature.name;
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return fmt::format("{} of {}", name, feature.observation);
+  return fmt::format("{} of {}", name_in_words(feature.name), feature.observation);
 }
 
 std::string unit_of(const Feature& feature) {
   const auto has = [&](const char* part) { return feature.name.find(part) != std::string::npos; };
   if (feature.name.ends_with("_um")) return "um";
+  if (feature.name.ends_with("_um2")) return "um2";
   if (has("exponent")) return "1";
   if (feature.name == "kn_level" || feature.name == "kt_level") return "N/m";
   if (has("modulus") || has("stress")) return "Pa";

@@ -20,10 +20,13 @@ std::string magnitudes_in_words(const Explanation& explanation);
 /// "bridges missing between near beads (missing_bridges), 20 % (18 to 21 %)".
 std::string in_words(const Explanation& explanation);
 
+/// "contact gap": the name of a feature without the unit that it ends with.
+std::string name_in_words(std::string feature);
+
 /// "linear modulus of A".
 std::string in_words(const Feature& feature);
 
-/// What a feature is told in: fraction, um, Pa, N/m or 1.
+/// What a feature is told in: fraction, um, um2, Pa, N/m or 1.
 std::string unit_of(const Feature& feature);
 
 /// The unit that a key of the sample ends with: Pa, um or 1.

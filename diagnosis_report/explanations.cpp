@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "diagnosis/inference/evidence.h"
+#include "diagnosis/words.h"
 #include "viz/labels.h"
 
 namespace pendular::diagnosis_report {
@@ -44,9 +45,8 @@ bool is_suspect(const diagnosis::Diagnosis& diagnosis, const std::string& effect
 }
 
 std::string feature_label(const diagnosis::Feature& feature) {
-  std::string name = feature.name;
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return fmt::format("{}: {}", viz::shortened(feature.observation, kLongestName), name);
+  return fmt::format("{}: {}", viz::shortened(feature.observation, kLongestName),
+                     diagnosis::name_in_words(feature.name));
 }
 
 Shown shown_of(const diagnosis::Diagnosis& diagnosis) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/words.h"
 #include "diagnosis_report/explanations.h"
 #include "diagnosis_report/tables.h"
 #include "viz/matrix_plot.h"
@@ -83,7 +84,7 @@ Drawn map_figure(const Diagnosis& d) {
   }
   map.limit = std::clamp(largest, 3.0, kLargestShown);
   const Table table = map_table(map);
-  for (std::string& name : map.columns) std::replace(name.begin(), name.end(), '_', ' ');
+  for (std::string& name : map.columns) name = diagnosis::name_in_words(name);
   return {
       viz::matrix_figure(map),
       fmt::format("Where simulation and experiment part: z of each feature, simulated less observed over "

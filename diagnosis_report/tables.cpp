@@ -55,6 +55,8 @@ bool is_done(const diagnosis::LedgerRow& row) {
   return row.status == "done";
 }
 
+constexpr double kOfZ = 0.2;  ///< what is told of z: a decimal
+
 /// A purpose without its magnitudes: what stands before a colon, or else the first word.
 std::string kind_of(const std::string& purpose) {
   const std::size_t colon = purpose.find(": ");
@@ -87,7 +89,8 @@ Table shown_gap_table(const Diagnosis& d) {
     };
     table.rows.push_back({diagnosis::in_words(f), quantity(f.value, unit), quantity(row.simulated, unit),
                           compared(row.difference), compared(row.sigma),
-                          fmt::format("{:.1f}{}", row.z, row.significant ? " *" : ""), percent(row.share)});
+                          quantity_within(row.z, kOfZ, "1") + (row.significant ? " *" : ""),
+                          percent(row.share)});
   }
   return table;
 }

@@ -59,6 +59,8 @@ TEST(Words, FeaturesHaveUnits) {
   EXPECT_EQ(unit_of(Feature{"A", "linear_modulus"}), "Pa");
   EXPECT_EQ(unit_of(Feature{"g", "gap_mean_um"}), "um");
   EXPECT_EQ(in_words(Feature{"g", "gap_mean_um"}), "gap mean of g");
+  EXPECT_EQ(in_words(Feature{"beads", "contact_variance_um2"}), "contact variance of beads");
+  EXPECT_EQ(quantity(0.0264, unit_of(Feature{"beads", "contact_variance_um2"})), "0.0264 µm²");
   EXPECT_EQ(unit_of(Feature{"E", "modulus_exponent"}), "1");
 }
 
