@@ -177,8 +177,10 @@ std::optional<Drawn> signature_figure(const Diagnosis& d) {
 std::optional<Drawn> separation_figure(const Diagnosis& d) {
   if (d.separation.size() == 0) return {};
   viz::Matrix map;
-  map.rows = effect_names(d), map.columns = d.effects;
+  map.rows = map.columns = effect_names(d);
   map.columns.push_back("no effect");
+  std::vector<std::string> ids = d.effects;
+  ids.push_back(map.columns.back());
   const auto squared = row_by_row(d.separation);
   for (std::size_t k = 0; k < squared.size(); ++k) {
     const bool itself = k % map.columns.size() == k / map.columns.size();
@@ -196,7 +198,7 @@ std::optional<Drawn> separation_figure(const Diagnosis& d) {
                   "colours end at {:g}. Framed: below three, not to be told apart here, or in the last "
                   "column not to be seen. The table has the squares.",
                   kLargestShown),
-      matrix_table("separation", d.effects, map.columns, squared)};
+      matrix_table("separation", d.effects, ids, squared)};
 }
 
 std::vector<Drawn> magnitude_figures(const Diagnosis& d) {

@@ -121,7 +121,7 @@ viz::ReportSection promise_section(const Diagnosis& d) {
                 "a right set; magnitudes, below zero and above, from which on half of the runs are "
                 "told from none, which stands for smaller ones; and the magnitude from which on "
                 "nine in ten are told (empty: at none of the bank)."));
-  out.tables.push_back(to_report(reliability_table(d),
+  out.tables.push_back(to_report(shown_reliability_table(d),
                                  "How often the most probable explanation of a replayed run was right."));
   return out;
 }
@@ -150,7 +150,7 @@ viz::ReportSection next_section(const Diagnosis& d, const Pictures& pictures) {
   auto out = section("What to measure next", text, pictures.next);
   if (!steps.experiments.empty())
     out.tables = {
-        to_report(next_table(steps),
+        to_report(shown_next_table(steps),
                   "Runs of the bank taken for the truth, by the present probabilities, and diagnosed "
                   "with the further measurement as it is usually made.")};
   return out;

@@ -57,6 +57,12 @@ bool is_done(const diagnosis::LedgerRow& row) {
 
 constexpr double kOfZ = 0.2;  ///< what is told of z: a decimal
 
+/// A cell of numbers as a share in per cent; empty where there is none.
+void tell_share(Cell& cell) {
+  const double share = std::get<double>(cell);
+  cell = std::isfinite(share) ? percent(share) : "";
+}
+
 /// A purpose without its magnitudes: what stands before a colon, or else the first word.
 std::string kind_of(const std::string& purpose) {
   const std::size_t colon = purpose.find(": ");
@@ -193,13 +199,15 @@ Table promise_table(const Diagnosis& d) {
 
 Table shown_promise_table(const Diagnosis& d) {
   Table table = promise_table(d);
+  table.columns.erase(table.columns.begin() + 1);
   table.columns.pop_back();
   for (auto& row : table.rows) {
-    for (const std::size_t column : {3, 4, 5}) row[column] = percent(std::get<double>(row[column]));
+    for (const std::size_t column : {3, 4, 5}) tell_share(row[column]);
     for (const std::size_t column : {6, 7, 8}) {
       const double from = std::get<double>(row[column]);
       row[column] = std::isfinite(from) ? diagnosis::limit_in_words(from, std::get<std::string>(row[9])) : "";
     }
+    row.erase(row.begin());
     row.pop_back();
   }
   return table;
@@ -209,6 +217,13 @@ Table reliability_table(const Diagnosis& d) {
   Table table{"reliability", {"probability_said", "share_that_came_true", "replayed_runs"}, {}};
   for (const auto& bin : d.promise.reliability)
     table.rows.push_back({bin.said, bin.came_true, static_cast<double>(bin.cases)});
+  return table;
+}
+
+Table shown_reliability_table(const Diagnosis& d) {
+  Table table = reliability_table(d);
+  for (auto& row : table.rows)
+    for (const std::size_t column : {0, 1}) tell_share(row[column]);
   return table;
 }
 
@@ -226,6 +241,12 @@ Table next_table(const diagnosis::NextSteps& steps) {
   if (steps.now.cases > 0) add("nothing more", 0.0, steps.now, 0.0, 0, "as the experiment is");
   for (const auto& next : steps.experiments)
     add(next.observation, next.gain, next.outlook, next.cost, next.runs, next.why);
+  return table;
+}
+
+Table shown_next_table(const diagnosis::NextSteps& steps) {
+  Table table = next_table(steps);
+  for (auto& row : table.rows) tell_share(row[3]);
   return table;
 }
 

@@ -48,8 +48,14 @@ Table shown_promise_table(const diagnosis::Diagnosis& diagnosis);
 /// How often what was said with some probability came true among replayed runs.
 Table reliability_table(const diagnosis::Diagnosis& diagnosis);
 
+/// The same for the page, in per cent.
+Table shown_reliability_table(const diagnosis::Diagnosis& diagnosis);
+
 /// next_experiments.csv: what each further measurement is expected to bring, after what is known without it.
 Table next_table(const diagnosis::NextSteps& steps);
+
+/// The same for the page: the probability in per cent.
+Table shown_next_table(const diagnosis::NextSteps& steps);
 
 /// next_effects.csv: likewise, effect by effect.
 Table next_effects_table(const diagnosis::NextSteps& steps);

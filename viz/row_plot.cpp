@@ -13,7 +13,7 @@ namespace {
 // Pixels of the picture.
 constexpr int kWidth = 1600;
 constexpr double kMargin = 24.0, kBelow = 100.0, kLegendLine = 40.0, kRowType = 24.0, kZoom = 0.72;
-constexpr double kLeastRow = 38.0, kSpareHeight = 320.0, kTallestRow = 80.0, kBetween = 30.0;
+constexpr double kLeastRow = 38.0, kSpareHeight = 320.0, kTallestRow = 80.0, kBetween = 60.0;
 constexpr double kBarHeight = 0.7;  // of all bars of a row together, in rows
 constexpr std::size_t kLongestLine = 46, kMostLines = 3;
 constexpr std::array<Colour, 4> kColours = {{{31, 90, 165}, {214, 106, 20}, {110, 110, 110}, {20, 130, 80}}};
