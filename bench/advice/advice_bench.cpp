@@ -17,7 +17,6 @@
 #include "diagnosis/experiment/further_measurements.h"
 #include "diagnosis/inference/calibration.h"
 #include "diagnosis/inference/judgement.h"
-#include "diagnosis/thresholds.h"
 #include "effects/list.h"
 
 namespace {
@@ -39,6 +38,7 @@ struct Outcome {
   AmbiguitySet set;
   Question question;
   std::map<std::string, ToldFrom> told_from;
+  bool settled = false;
 
   /// Whether the set is one explanation, and the right one: the effect or, where so little is not told, none.
   bool right(const std::string& effect, double theta) const {
@@ -70,17 +70,10 @@ class Bench {
     const Correction correction = promise_of(all, kConfidence).of_replayed;
     const auto said = corrected(all[run].said, correction);
     const AmbiguitySet set = set_of(said, correction);
-    Question question;
-    for (const auto& h : said) {
-      const bool in = h.probability >= kThresholds.in_question ||
-                      std::find(set.ids.begin(), set.ids.end(), h.id) != set.ids.end();
-      if (!in || h.id == "unknown") continue;
-      question.probabilities[h.id] = h.probability;
-      if (h.id == "none") continue;
-      question.effects.insert(h.id);
-      question.magnitudes[h.id] = h.magnitudes.front();
-    }
-    return {set, question, correction.told_from};
+    Diagnosis diagnosis;
+    diagnosis.ambiguity_set = set.ids;
+    for (const auto& h : said) diagnosis.explanations.push_back({h.id, h.probability, h.magnitudes, {}});
+    return {set, question_after(diagnosis), correction.told_from, is_settled(diagnosis)};
   }
 
   /// The state after the best measurement, or the worst that is ranked; nothing where none is.
@@ -142,7 +135,7 @@ int main(int count, char** words) {
       const std::size_t run = open[n * open.size() / std::min(wanted, open.size())];
       State state = start;
       Outcome outcome = bench.diagnosed(state, run);
-      for (int step = 0; step < kSteps && outcome.set.ids.size() > 1; ++step) {
+      for (int step = 0; step < kSteps && !outcome.settled; ++step) {
         auto after = bench.advised(state, outcome.question, best);
         if (!after || bench.replayed(*after).size() != runs) break;
         state = std::move(*after);
