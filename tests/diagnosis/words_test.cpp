@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/quantity.h"
 #include "diagnosis/advice/next_experiments.h"
 #include "diagnosis/repair/shrinkage.h"
 #include "diagnosis/verdict.h"
