@@ -76,10 +76,10 @@ template <typename Body>
 void for_shares(std::size_t shares, const Body& body) {
   LoopOrder order;
   tbb::parallel_for(
-      std::size_t{0}, shares,
-      [&](std::size_t share) {
+      tbb::blocked_range<std::size_t>(0, shares),
+      [&](const tbb::blocked_range<std::size_t>& range) {
         order.part_starts();
-        body(share);
+        for (std::size_t share = range.begin(); share != range.end(); ++share) body(share);
         order.part_ends();
       },
       tbb::static_partitioner());
