@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,25 @@ T lower_quantile(std::vector<T> values, double share) {
   if (values.empty()) return T{};
   const auto place = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
   return ordered_value(std::move(values), place);
+}
+
+/// The lower_quantile() of each of some shares, which rise; as many zeros of no values.
+template <typename T>
+std::vector<T> lower_quantiles(std::vector<T> values, std::span<const double> shares) {
+  std::vector<T> found;
+  auto from = values.begin();  // what is before it is ordered in so far as it is less
+  for (const double share : shares) {
+    if (values.empty()) {
+      found.push_back(T{});
+      continue;
+    }
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(from, at, values.end());
+    found.push_back(*at);
+    from = at;
+  }
+  return found;
 }
 
 /// Quantile by straight lines between the ordered values (Hyndman & Fan 1996, Am. Stat. 50, 361, type 7);

@@ -122,6 +122,7 @@ void run(const DiagnoseOptions& options) {
   rules.confidence = options.confidence;
   auto found = diagnosis::diagnose(experiment, bank, beads, maker(options), rules,
                                    {!options.no_fresh_runs, options.plan});
+  ::malloc_trim(0);  // of the runs; pictures need their own
   found.provenance = provenance(options.common, inputs_of(options, experiment));
   diagnosis_report::write_report_folder(options.common.out, found);
   say(found.verdict);

@@ -95,7 +95,7 @@ std::vector<Drawn> place_figures(const std::vector<Place>& places) {
   if (places.empty()) return figures;
   std::vector<viz::BeadMap> maps;
   for (const Place& place : places) maps.push_back(misfit_map(place)), maps.push_back(stiffness_map(place));
-  auto images = viz::draw_bead_maps(viz::Display(), maps);
+  auto images = viz::draw_bead_maps(viz::Display(), maps, {1200, 900});
   for (std::size_t k = 0; k < places.size(); ++k) {
     figures.push_back(misfit_figure(std::move(images[2 * k]), places[k]));
     figures.push_back(stiffness_figure(std::move(images[2 * k + 1]), places[k]));

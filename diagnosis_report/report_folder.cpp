@@ -29,7 +29,7 @@ std::string file_name(std::string name) {
   return name.substr(0, kLongestName);
 }
 
-/// Writes tables and pictures into the folder; charts are drawn together, at the end.
+/// Writes tables and pictures into the folder; charts are drawn together.
 class Files {
  public:
   Files(const fs::path& out, const Diagnosis& diagnosis)
@@ -61,7 +61,8 @@ class Files {
   void keep(const std::optional<Drawn>& figure, std::vector<viz::ReportPicture>& section) {
     if (figure) keep(*figure, section);
   }
-  void draw_charts() const { viz::write_figures(charts_, metadata_); }
+  /// The charts that were kept.
+  viz::ChartsInWork draw_charts() const { return {charts_, metadata_}; }
 
  private:
   fs::path out_;
@@ -69,10 +70,9 @@ class Files {
   std::vector<viz::FigureFiles> charts_;
 };
 
-Pictures keep_figures(const Diagnosis& d, Files& files) {
+Pictures keep_charts(const Diagnosis& d, Files& files) {
   Pictures pictures;
   files.keep_all(gap_figures(d), pictures.where);
-  files.keep_all(place_figures(d.places), pictures.where);
   files.keep_all(overlay_figures(d), pictures.overlays);
   files.keep(hypothesis_figure(d), pictures.which);
   files.keep_all(magnitude_figures(d), pictures.which);
@@ -90,7 +90,9 @@ Pictures keep_figures(const Diagnosis& d, Files& files) {
 void write_report_folder(const fs::path& out, const Diagnosis& d) {
   make_folder(out);
   Files files(out, d);
-  const Pictures pictures = keep_figures(d, files);
+  Pictures pictures = keep_charts(d, files);
+  viz::ChartsInWork charts = files.draw_charts();
+  files.keep_all(place_figures(d.places), pictures.where);
   for (const Table& table : {gap_table(d), share_table(d), hypothesis_table(d), noise_table(d),
                              excluded_table(d), unseen_table(d), promise_table(d), reliability_table(d),
                              next_table(d.next), next_effects_table(d.next), ledger_table(d)})
@@ -99,7 +101,7 @@ void write_report_folder(const fs::path& out, const Diagnosis& d) {
     write_polydata(out / (file_name("place_" + place.observation) + ".vtp"), place_polydata(place));
   write_text(out / "diagnosis.json",
              to_json(d).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  files.draw_charts();  // where they cannot be, the numbers are there
+  charts.write();  // where they cannot be, the numbers are there
   viz::write_report(out / "report.html", page_of(d, pictures));
 }
 

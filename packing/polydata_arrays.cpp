@@ -40,6 +40,19 @@ auto with_type(const XmlArray& array, const fs::path& path, const Function& f) {
             array.name, array.type);
 }
 
+constexpr std::uint32_t kNoDigit = 64;
+
+/// What a character of base64 stands for; padding counts as 0.
+constexpr std::array<std::uint32_t, 256> kDigits = [] {
+  std::array<std::uint32_t, 256> digits{};
+  digits.fill(kNoDigit);
+  std::uint32_t next = 0;
+  for (const char c : std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"))
+    digits[static_cast<unsigned char>(c)] = next++;
+  digits['='] = 0;
+  return digits;
+}();
+
 /// The bytes behind an array's data, encoded as base64 or as they are.
 class Stored {
  public:
@@ -65,31 +78,24 @@ class Stored {
     if (count > text_.size() || size > text_.size()) damaged("it is cut short");
     const std::string_view part = text_.substr(0, size);
     if (take) text_.remove_prefix(size);
-    return raw_ ? std::string(part) : decoded(part).substr(0, count);
+    return raw_ ? std::string(part) : decoded(part, count);
   }
 
   std::uint64_t size() const { return text_.size(); }
 
  private:
-  std::string decoded(std::string_view text) const {
-    std::string out;
-    out.reserve(text.size() / 4 * 3);
-    for (std::size_t k = 0; k + 4 <= text.size(); k += 4) {
-      std::uint32_t bits = 0;
-      for (std::size_t n = 0; n < 4; ++n) bits = bits << 6U | digit(text[k + n]);
-      for (const unsigned shift : {16U, 8U, 0U}) out += static_cast<char>(bits >> shift & 0xffU);
+  std::string decoded(std::string_view text, std::uint64_t count) const {
+    std::string out(text.size() / 4 * 3, '\0');
+    std::uint32_t all = 0;
+    for (std::size_t k = 0; k < text.size() / 4; ++k) {
+      const auto digit = [&](std::size_t n) { return kDigits[static_cast<unsigned char>(text[4 * k + n])]; };
+      all |= digit(0) | digit(1) | digit(2) | digit(3);
+      const std::uint32_t bits = digit(0) << 18U | digit(1) << 12U | digit(2) << 6U | digit(3);
+      for (std::size_t n = 0; n < 3; ++n) out[3 * k + n] = static_cast<char>(bits >> (16 - 8 * n));
     }
+    if (all >= kNoDigit) damaged("it is no base64");
+    out.resize(count);
     return out;
-  }
-
-  std::uint32_t digit(char c) const {
-    if (c >= 'A' && c <= 'Z') return static_cast<std::uint32_t>(c - 'A');
-    if (c >= 'a' && c <= 'z') return static_cast<std::uint32_t>(c - 'a') + 26;
-    if (c >= '0' && c <= '9') return static_cast<std::uint32_t>(c - '0') + 52;
-    if (c == '+') return 62;
-    if (c == '/') return 63;
-    if (c == '=') return 0;
-    damaged("it is no base64");
   }
 
   std::string where_;

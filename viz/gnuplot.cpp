@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/process.h"
-#include "base/temporary_folder.h"
 #include "viz/comment.h"
 
 namespace pendular::viz {
@@ -66,13 +65,8 @@ std::string script_of(std::span<const FigureFiles> figures, std::size_t first, s
   return script;
 }
 
-/// gnuplot at work on a script.
-struct Drawing {
-  fs::path log;
-  Process process;
-};
-
-Drawing draw(const fs::path& folder, const std::string& name, const std::string& script) {
+/// Starts gnuplot on a script.
+ChartsInWork::Script start(const fs::path& folder, const std::string& name, const std::string& script) {
   // Not write_text(), which waits for other files where they are written together (WrittenTogether).
   std::ofstream(folder / name, std::ios::binary) << script;
   // -d: without the user's settings.
@@ -80,12 +74,12 @@ Drawing draw(const fs::path& folder, const std::string& name, const std::string&
   return {log, Process({"gnuplot", {"-d", name}}, {.log = log, .folder = folder})};
 }
 
-void finish(Drawing& drawing) {
-  const int status = watch(drawing.process);
+void finish(ChartsInWork::Script& script) {
+  const int status = watch(script.process);
   if (status == kCannotBeStarted)
     throw ComputationFailed("charts need gnuplot: not found (Debian package gnuplot-nox)");
   if (status != 0)
-    throw ComputationFailed(fmt::format("gnuplot ended with {}: {}", status, last_line(drawing.log)));
+    throw ComputationFailed(fmt::format("gnuplot ended with {}: {}", status, last_line(script.log)));
 }
 
 }  // namespace
@@ -94,25 +88,35 @@ bool is_figure_name(const fs::path& file) {
   return kFormats.contains(file.extension());
 }
 
-void write_figures(std::span<const FigureFiles> figures, const std::string& comment) {
-  if (figures.empty()) return;
-  const TemporaryFolder folder;
-  const std::size_t parts = std::min(figures.size(), kScripts);
-  for (std::size_t first = 0; first < parts; first += thread_count()) {
-    std::vector<Drawing> drawings;
-    for (std::size_t part = first; part < std::min(parts, first + thread_count()); ++part)
-      drawings.push_back(
-          draw(folder.path(), fmt::format("script_{}", part), script_of(figures, part, parts)));
-    for (auto& drawing : drawings) finish(drawing);
+ChartsInWork::ChartsInWork(std::vector<FigureFiles> figures, std::string comment)
+    : figures_(std::move(figures)), comment_(std::move(comment)) {
+  start_scripts();
+}
+
+void ChartsInWork::start_scripts() {
+  const std::size_t scripts = std::min(figures_.size(), kScripts);
+  for (std::size_t n = 0; started_ < scripts && n < thread_count(); ++n, ++started_)
+    at_work_.push_back(
+        start(folder_.path(), fmt::format("script_{}", started_), script_of(figures_, started_, scripts)));
+}
+
+void ChartsInWork::write() {
+  for (; !at_work_.empty(); start_scripts()) {
+    for (auto& script : at_work_) finish(script);
+    at_work_.clear();
   }
-  for (std::size_t k = 0; k < figures.size(); ++k)
-    for (std::size_t f = 0; f < figures[k].files.size(); ++f) {
-      const fs::path& file = figures[k].files[f];
+  for (std::size_t k = 0; k < figures_.size(); ++k)
+    for (std::size_t f = 0; f < figures_[k].files.size(); ++f) {
+      const fs::path& file = figures_[k].files[f];
       const std::string drawn = drawn_name(k, f);
-      if (!fs::exists(folder.path() / drawn))
+      if (!fs::exists(folder_.path() / drawn))
         throw ComputationFailed(fmt::format("{}: gnuplot did not draw it", file.string()));
-      write_text(file, format_of(file).finished(read_text(folder.path() / drawn), comment));
+      write_text(file, format_of(file).finished(read_text(folder_.path() / drawn), comment_));
     }
+}
+
+void write_figures(std::span<const FigureFiles> figures, const std::string& comment) {
+  ChartsInWork({figures.begin(), figures.end()}, comment).write();
 }
 
 void write_figure(const Figure& figure, std::vector<fs::path> files, const std::string& comment) {

@@ -148,8 +148,9 @@ std::pair<Design, std::vector<KnownRun>> BankFeatures::held_out(int member, int 
       for (std::size_t f = 0; f < fields_.size(); ++f) {
         const auto& field = fields_[f].second.of_runs[k];
         if (!field) break;
+        const FieldReader& reader = learnt.readers[f];
         widen(values,
-              learnt.readers[f].read(*field, kSeedOfHeld + 100 * k + static_cast<unsigned long>(draw)));
+              reader.read(*field + reader.noise(kSeedOfHeld + 100 * k + static_cast<unsigned long>(draw))));
       }
       if (values.size() <= learnt.kept.back()) break;
       values = Eigen::VectorXd(values(learnt.kept));

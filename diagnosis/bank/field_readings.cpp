@@ -205,14 +205,19 @@ std::vector<Feature> FieldReader::measured(const FieldBank& bank) const {
   return found;
 }
 
-Eigen::VectorXd FieldReader::read(const Eigen::VectorXd& field, unsigned long noise_seed,
-                                  double share) const {
+Eigen::VectorXd FieldReader::noise(unsigned long seed) const {
+  std::vector<Eigen::VectorXd> parts;
+  for (const auto& statistics : statistics_) parts.push_back(statistics.noise(seed));
+  return joined(parts);
+}
+
+Eigen::VectorXd FieldReader::read(const Eigen::VectorXd& field) const {
   std::vector<Eigen::VectorXd> parts;
   Eigen::Index first = 0;
   for (const auto& statistics : statistics_) {
-    const Eigen::VectorXd noise = statistics.noise(noise_seed, share);
-    parts.push_back(statistics(field.segment(first, noise.size()) + noise));
-    first += noise.size();
+    const Eigen::Index size = statistics.reference().size();
+    parts.push_back(statistics(field.segment(first, size)));
+    first += size;
   }
   return joined(parts);
 }
@@ -221,11 +226,16 @@ std::vector<Eigen::VectorXd> FieldReader::of_runs(const FieldBank& bank,
                                                   const std::vector<DesignPoint>& points) const {
   std::size_t size = 0;
   for (const auto& statistics : statistics_) size += statistics.size();
-  std::vector<Eigen::VectorXd> found;
-  for (std::size_t k = 0; k < bank.of_runs.size(); ++k)
-    found.push_back(bank.of_runs[k] && points[k].member != but_
-                        ? read(*bank.of_runs[k], kSeedOfRuns + static_cast<unsigned long>(points[k].member))
-                        : Eigen::VectorXd::Constant(static_cast<Eigen::Index>(size), std::nan("")));
+  std::map<int, Eigen::VectorXd> noises;
+  for (const auto& point : points)
+    if (!noises.contains(point.member))
+      noises[point.member] = noise(kSeedOfRuns + static_cast<unsigned long>(point.member));
+  const Eigen::VectorXd unknown = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(size), std::nan(""));
+  std::vector<Eigen::VectorXd> found(bank.of_runs.size());
+  for_blocks(found.size(), 1, [&](std::size_t k, std::size_t) {
+    const bool known = bank.of_runs[k] && points[k].member != but_;
+    found[k] = known ? read(*bank.of_runs[k] + noises.at(points[k].member)) : unknown;
+  });
   return found;
 }
 
@@ -234,9 +244,9 @@ Eigen::VectorXd FieldReader::by_noise(const FieldBank& bank, const std::vector<D
   double count = 0.0;
   for (std::size_t k = 0; k < bank.of_runs.size(); ++k) {
     if (!bank.of_runs[k] || !points[k].id.empty() || points[k].member == but_) continue;
-    const auto seed = static_cast<unsigned long>(points[k].member);
-    const Eigen::VectorXd more = read(*bank.of_runs[k], seed, 1.0 + kThresholds.stated_error) -
-                                 read(*bank.of_runs[k], seed, 1.0 - kThresholds.stated_error);
+    const Eigen::VectorXd drawn = noise(static_cast<unsigned long>(points[k].member));
+    const Eigen::VectorXd more = read(*bank.of_runs[k] + (1.0 + kThresholds.stated_error) * drawn) -
+                                 read(*bank.of_runs[k] + (1.0 - kThresholds.stated_error) * drawn);
     sum = count > 0.0 ? Eigen::VectorXd(sum + more) : more;
     count += 2.0;
   }

@@ -29,8 +29,9 @@ class FieldReader {
   FieldReader(const FieldBank& bank, const std::vector<DesignPoint>& points, int but = 0);
 
   std::vector<Feature> measured(const FieldBank& bank) const;
-  /// A field with noise of the stated size times `share`.
-  Eigen::VectorXd read(const Eigen::VectorXd& field, unsigned long noise_seed, double share = 1.0) const;
+  Eigen::VectorXd read(const Eigen::VectorXd& field) const;
+  /// Seeded noise of the stated size for a field, µm.
+  Eigen::VectorXd noise(unsigned long seed) const;
   /// The runs' fields, those of one member with the same noise; NaN where a run has none.
   std::vector<Eigen::VectorXd> of_runs(const FieldBank& bank, const std::vector<DesignPoint>& points) const;
 

@@ -140,10 +140,10 @@ void FieldStatistics::find_parts() {
   }
 }
 
-Eigen::VectorXd FieldStatistics::noise(unsigned long seed, double share) const {
+Eigen::VectorXd FieldStatistics::noise(unsigned long seed) const {
   Eigen::VectorXd values(reference_.size());
   for (Eigen::Index k = 0; k < values.size(); ++k)
-    values[k] = share * followed_.sigma_um * random_normal(seed, static_cast<std::uint64_t>(k));
+    values[k] = followed_.sigma_um * random_normal(seed, static_cast<std::uint64_t>(k));
   return values;
 }
 
@@ -158,9 +158,8 @@ Eigen::VectorXd FieldStatistics::operator()(const Eigen::VectorXd& field) const 
   values.push_back(log_size(left.squaredNorm() / beads, 3.0 * noise));
   std::vector<double> sizes;
   for (Eigen::Index row = 0; row < left.size(); row += 3) sizes.push_back(left.segment<3>(row).norm());
-  for (double share : kQuantiles)
-    values.push_back(
-        0.5 * std::log(std::pow(lower_quantile(sizes, share), 2) + kThresholds.size_floor * noise + 1e-12));
+  for (const double size : lower_quantiles(std::move(sizes), kQuantiles))
+    values.push_back(0.5 * std::log(size * size + kThresholds.size_floor * noise + 1e-12));
   for (const auto& [name, rows] : parts_) values.push_back(log_size(mean_square(left, rows), 3.0 * noise));
 
   std::vector<double> parting;
@@ -182,8 +181,8 @@ Eigen::VectorXd FieldStatistics::operator()(const Eigen::VectorXd& field) const 
   const double pairs = std::max<double>(1.0, static_cast<double>(pairs_.size()));
   values.push_back(log_size(along / pairs, 2.0 * noise));
   values.push_back(log_size(across / pairs, 4.0 * noise));
-  for (double share : kPairQuantiles)
-    values.push_back(std::asinh(lower_quantile(parting, share) / kPartScale));
+  for (const double part : lower_quantiles(std::move(parting), kPairQuantiles))
+    values.push_back(std::asinh(part / kPartScale));
   for (const std::size_t opens : {0, 1}) {
     values.push_back(square[opens] > 0.0 ? product[opens] / square[opens] : 0.0);
     values.push_back(log_size(kept[opens] / std::max(1.0, count[opens]), 2.0 * noise));

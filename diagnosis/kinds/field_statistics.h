@@ -45,8 +45,8 @@ class FieldStatistics {
   double strain() const { return followed_.strain; }
   Eigen::VectorXd operator()(const Eigen::VectorXd& field) const;
 
-  /// Seeded noise of the stated size times `share` for a field, µm.
-  Eigen::VectorXd noise(unsigned long seed, double share = 1.0) const;
+  /// Seeded noise of the stated size for a field, µm.
+  Eigen::VectorXd noise(unsigned long seed) const;
 
   const Eigen::VectorXd& reference() const { return reference_; }
   const Eigen::MatrixXd& modes() const { return modes_; }  ///< orthonormal columns

@@ -206,7 +206,8 @@ PlaceStiffness place_stiffness(const dem_core::Simulation& specimen, double stra
   const auto centres = centres_of_regions(beads);
   const Eigen::MatrixXd at_nodes = shares_of(listed.beads.position, beads, centres);
   Eigen::MatrixXd sensitivity(static_cast<Eigen::Index>(3 * bead.size()), at_nodes.cols());
-  for (Eigen::Index r = 0; r < at_nodes.cols(); ++r) {
+  for_blocks(centres.size(), 1, [&](std::size_t region, std::size_t) {
+    const auto r = static_cast<Eigen::Index>(region);
     std::vector<double> of_spring;
     for (const auto& spring : network.springs())
       of_spring.push_back(spring.j < network.free_nodes()
@@ -215,7 +216,7 @@ PlaceStiffness place_stiffness(const dem_core::Simulation& specimen, double stra
     const dem_core::NodeVector change = dem_core::stiffness_sensitivity(network, x, of_spring, kTolerance);
     for (std::size_t k = 0; k < bead.size(); ++k)
       sensitivity.block<3, 1>(static_cast<Eigen::Index>(3 * k), r) = change.segment<3>(6 * bead[k]);
-  }
+  });
   remove_similarity(beads.rest, beads.diameter, sensitivity);
 
   Eigen::VectorXd variance(sensitivity.rows());

@@ -15,6 +15,10 @@ TEST(Quantile, OfFewValues) {
   EXPECT_EQ(lower_quantile<float>({4.0F, 1.0F, 2.0F, 3.0F}, 0.5), 2.0F);
   EXPECT_EQ(lower_quantile<double>({4.0, 1.0, 2.0, 3.0}, 1.0), 4.0);
   EXPECT_EQ(lower_quantile<double>({}, 0.5), 0.0);
+  const double shares[] = {0.0, 0.4, 0.4, 0.7, 1.0};
+  EXPECT_EQ(lower_quantiles<double>({5.0, 1.0, 4.0, 3.0, 2.0, 6.0}, shares),
+            (std::vector<double>{1.0, 3.0, 3.0, 4.0, 6.0}));
+  EXPECT_EQ(lower_quantiles<double>({}, shares), std::vector<double>(5, 0.0));
   EXPECT_EQ(quantile({4.0, 1.0, 2.0, 3.0}, 0.5), 2.5);
   EXPECT_DOUBLE_EQ(quantile({4.0, 1.0, 2.0, 3.0}, 0.9), 3.7);
   EXPECT_EQ(quantile({4.0, 1.0}, 1.0), 4.0);

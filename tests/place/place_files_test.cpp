@@ -37,7 +37,7 @@ TEST(PlaceFiles, PicturesAreDrawnWithTheirTable) {
   const auto figures = place_figures({three_beads()});
   ASSERT_EQ(figures.size(), 2u);
   for (const auto& figure : figures) {
-    EXPECT_EQ(std::get<viz::Image>(figure.picture).width, 1600);
+    EXPECT_EQ(std::get<viz::Image>(figure.picture).width, 1200);
     EXPECT_EQ(figure.data.rows.size(), 3u);
     EXPECT_FALSE(figure.caption.empty());
   }
