@@ -1,6 +1,7 @@
 #include "base/own_process.h"
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -23,9 +24,17 @@ extern "C" void end_with_one_line(int) {
 
 }  // namespace
 
+void keep_freed_memory() {
+  // Pages that the kernel takes back it clears before they return: a third of the time of small volumes, a
+  // sixth of a diagnosis.
+  ::mallopt(M_TRIM_THRESHOLD, 256 << 20);
+  ::mallopt(M_MMAP_THRESHOLD, 128 << 20);  // which the line before would fix at 128 kB
+}
+
 void own_process() {
   owned = true;
   catch_interrupts();
+  keep_freed_memory();
   struct sigaction action {};
   action.sa_handler = end_with_one_line;
   ::sigaction(SIGBUS, &action, nullptr);

@@ -23,8 +23,6 @@
 namespace pendular::cli {
 namespace {
 
-constexpr int kKept = 256 << 20, kLargePiece = 16 << 20;  // bytes of freed memory
-
 struct DiagnoseOptions {
   Common common;
   RunMaking making;
@@ -100,10 +98,6 @@ void plan(const DiagnoseOptions& options, const diagnosis::Experiment& beliefs) 
 }
 
 void run(const DiagnoseOptions& options) {
-  // Memory that weighing frees is asked for again at once: to give it back in between costs a sixth of the
-  // time.
-  ::mallopt(M_TRIM_THRESHOLD, kKept);
-  ::mallopt(M_MMAP_THRESHOLD, kLargePiece);  // which the line before fixes at 128 kB, less than a covariance
   apply(options.common, {options.file});
   check(options.making);
   if (options.plan)
