@@ -92,7 +92,6 @@ void write_report_folder(const fs::path& out, const Diagnosis& d) {
   Files files(out, d);
   Pictures pictures = keep_charts(d, files);
   viz::ChartsInWork charts = files.draw_charts();
-  files.keep_all(place_figures(d.places), pictures.where);
   for (const Table& table : {gap_table(d), share_table(d), hypothesis_table(d), noise_table(d),
                              excluded_table(d), unseen_table(d), promise_table(d), reliability_table(d),
                              next_table(d.next), next_effects_table(d.next), ledger_table(d)})
@@ -101,7 +100,9 @@ void write_report_folder(const fs::path& out, const Diagnosis& d) {
     write_polydata(out / (file_name("place_" + place.observation) + ".vtp"), place_polydata(place));
   write_text(out / "diagnosis.json",
              to_json(d).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  charts.write();  // where they cannot be, the numbers are there
+  // Where pictures cannot be drawn, the numbers are there.
+  files.keep_all(place_figures(d.places), pictures.where);
+  charts.write();
   viz::write_report(out / "report.html", page_of(d, pictures));
 }
 

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
+#include "base/error.h"
+#include "diagnosis_report/report_folder.h"
 #include "scratch.h"
 
 namespace pendular::diagnosis_report {
@@ -42,6 +46,22 @@ TEST(PlaceFiles, PicturesAreDrawnWithTheirTable) {
     EXPECT_FALSE(figure.caption.empty());
   }
   EXPECT_EQ(figures[0].data.name, "place_misfit_scan");
+}
+
+TEST(PlaceFiles, WithoutADisplayTheNumbersAreThere) {
+  const test::ScratchFolder scratch;
+  const char* display = std::getenv("DISPLAY");
+  const std::string path = std::getenv("PATH"), former = display != nullptr ? display : "";
+  ::unsetenv("DISPLAY");
+  ::setenv("PATH", scratch.path().c_str(), 1);  // where there is no Xvfb
+  diagnosis::Diagnosis found;
+  found.places = {three_beads()};
+  EXPECT_THROW(write_report_folder(scratch / "out", found), ComputationFailed);
+  ::setenv("PATH", path.c_str(), 1);
+  if (!former.empty()) ::setenv("DISPLAY", former.c_str(), 1);
+  EXPECT_TRUE(fs::exists(scratch / "out/diagnosis.json"));
+  EXPECT_TRUE(fs::exists(scratch / "out/place_scan.vtp"));
+  EXPECT_FALSE(fs::exists(scratch / "out/report.html"));
 }
 
 }  // namespace
