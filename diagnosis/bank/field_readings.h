@@ -29,6 +29,7 @@ class FieldReader {
   FieldReader(const FieldBank& bank, const std::vector<DesignPoint>& points, int but = 0);
 
   std::vector<Feature> measured(const FieldBank& bank) const;
+  /// A field, µm, as the numbers that measured() names.
   Eigen::VectorXd read(const Eigen::VectorXd& field) const;
   /// Seeded noise of the stated size for a field, µm.
   Eigen::VectorXd noise(unsigned long seed) const;
