@@ -1,6 +1,9 @@
 #include "packing/bridges.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "packing/neighbours.h"
 
@@ -20,6 +23,25 @@ std::vector<Bridge> candidate_bridges(const std::vector<Bead>& beads, double max
     bridges.push_back(bridge);
   }
   return bridges;
+}
+
+std::vector<Bridge> pairs_without(const std::vector<Bead>& beads, const std::vector<Bridge>& listed,
+                                  double max_gap) {
+  if (std::any_of(listed.begin(), listed.end(),
+                  [](const Bridge& b) { return b.state != BridgeState::bridge; }))
+    return {};
+  std::set<int> joined;
+  std::set<std::pair<int, int>> known;
+  for (const Bridge& b : listed) {
+    joined.insert({b.i, b.j});
+    known.insert(std::minmax(b.i, b.j));
+  }
+  std::vector<Bridge> without = candidate_bridges(beads, max_gap);
+  std::erase_if(without, [&](const Bridge& b) {
+    return !joined.contains(b.i) || !joined.contains(b.j) || known.contains({b.i, b.j});
+  });
+  for (Bridge& b : without) b.state = BridgeState::none, b.probability = 0.0;
+  return without;
 }
 
 double mean_diameter(const std::vector<Bead>& beads) {

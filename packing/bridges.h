@@ -11,6 +11,12 @@ namespace pendular {
 /// σ² = σ_c,i² + σ_c,j² + (σ_D,i² + σ_D,j²)/4.
 std::vector<Bridge> candidate_bridges(const std::vector<Bead>& beads, double max_gap);
 
+/// What a table that lists bridges alone says of other pairs: those of its beads with a gap below `max_gap`
+/// (m) that it does not list have none. Empty where the table also lists pairs in another state than
+/// `bridge`.
+std::vector<Bridge> pairs_without(const std::vector<Bead>& beads, const std::vector<Bridge>& listed,
+                                  double max_gap);
+
 /// Mean diameter of the beads, m; the D that cut-offs are given in.
 double mean_diameter(const std::vector<Bead>& beads);
 

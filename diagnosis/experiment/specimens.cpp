@@ -52,8 +52,11 @@ void move_beads(std::vector<Bead>& beads, std::uint64_t seed) {
 
 /// Pairs as they were measured: what has no bridge has none, undetermined ones stay candidates. `moved`:
 /// necks by their stated errors, as another measurement might have them.
-void use_network(const fs::path& path, bool moved, std::uint64_t seed, Packing& packing) {
-  for (Bridge bridge : read_bridges(path, packing.beads)) {
+void use_network(const fs::path& path, double cutoff, bool moved, std::uint64_t seed, Packing& packing) {
+  std::vector<Bridge> network = read_bridges(path, packing.beads);
+  const auto without = pairs_without(packing.beads, network, cutoff * mean_diameter(packing.beads));
+  network.insert(network.end(), without.begin(), without.end());
+  for (Bridge bridge : network) {
     if (bridge.state == BridgeState::undetermined) bridge.state = BridgeState::candidate;
     if (moved && bridge.diameter > 0.0)
       bridge.diameter += bridge.sigma_diameter * random_normal(seed, effects::of_pair(bridge.i, bridge.j));
@@ -76,8 +79,8 @@ Packing measured_packing(const Condition& condition, int member, const Sample& c
   if (member > 1 && member < kFirstFresh) move_beads(beads, static_cast<std::uint64_t>(member));
   Packing packing = packing_of(effects::actual_beads(std::move(beads), changed), condition.sample);
   if (!condition.network.empty())
-    use_network(condition.network, member > 1 && member < kFirstFresh, static_cast<std::uint64_t>(member),
-                packing);
+    use_network(condition.network, condition.sample.bridges.cutoff, member > 1 && member < kFirstFresh,
+                static_cast<std::uint64_t>(member), packing);
   // The bytes name the runs of a store, whatever commit wrote them.
   packing.provenance = {fmt::format("model {}", kModelVersion),
                         fmt::format("pendular diagnose: member {}", member),
@@ -104,9 +107,9 @@ sweep::PackingSource MemberPackings::of(const Condition& condition, int member, 
   const std::string key =
       fmt::format("{}\n{}\n{}", condition.beads.string(), condition.network.string(), what);
   if (const auto known = known_.find(key); known != known_.end()) return known->second;
-  const std::string name =
-      sha256(fmt::format("closed {} {}{}", sha256_of(condition.beads), what,
-                         condition.network.empty() ? "" : fmt::format(" {}", sha256_of(condition.network))));
+  const std::string name = sha256(
+      fmt::format("closed {} {}{}", sha256_of(condition.beads), what,
+                  condition.network.empty() ? "" : fmt::format(" network {}", sha256_of(condition.network))));
   const fs::path path = folder_ / (name.substr(0, 16) + ".vtp");
   make_inner_folder(folder_);
   if (!is_there(path)) write_packing(path, measured_packing(condition, member, changed));

@@ -8,6 +8,7 @@
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
 #include "effects/list.h"
+#include "packing/bridges.h"
 #include "packing/packing.h"
 #include "packing/tables.h"
 
@@ -20,6 +21,30 @@ constexpr std::size_t kLeastPairs = 20, kLeastNecks = 10;
 constexpr double kFarPair = 0.3;                           // gap over bead diameter, of the median pair
 constexpr double kShareError = 0.005, kNeckError = 0.005;  // of the simulation
 
+/// Where pairs are in a specimen, as columns.
+class Places {
+ public:
+  explicit Places(const std::vector<Bead>& beads) {
+    for (const auto& bead : beads) {
+      by_id_[bead.id] = &bead;
+      box_.extend(bead.centre);
+    }
+  }
+
+  void add(Columns& columns, std::int64_t id_i, std::int64_t id_j) const {
+    const Bead &a = *by_id_.at(id_i), &b = *by_id_.at(id_j);
+    const Vec3 at = 0.5 * (a.centre + b.centre) - box_.center(), way = (b.centre - a.centre).normalized();
+    columns["cosine"].push_back(std::fabs(way.z()));
+    columns["height"].push_back(at.z() / box_.sizes().z() + 0.5);
+    columns["radius"].push_back(2.0 * std::hypot(at.x(), at.y()) / box_.sizes().x());
+    columns["separation_um"].push_back(kUm * gap(a, b));
+  }
+
+ private:
+  std::map<std::int64_t, const Bead*> by_id_;
+  Eigen::AlignedBox3d box_;
+};
+
 /// The network as columns: pairs, where they are, and whether a bridge joins them (NaN: undetermined).
 void read(Observation& observation, const CsvTable& table) {
   if (observation.beads.empty())
@@ -27,18 +52,10 @@ void read(Observation& observation, const CsvTable& table) {
               observation.file.string());
   const auto beads = read_beads(observation.beads);
   read_bridges(observation.file, beads);
-  std::map<std::int64_t, const Bead*> by_id;
-  Vec3 low = beads.front().centre, high = low;
-  for (const auto& bead : beads) {
-    by_id[bead.id] = &bead;
-    low = low.cwiseMin(bead.centre), high = high.cwiseMax(bead.centre);
-  }
-  const Vec3 middle = 0.5 * (low + high);
+  const Places places(beads);
   const auto ids_i = table.integers("bead_i"), ids_j = table.integers("bead_j");
   auto& columns = observation.columns;
   for (std::size_t k = 0; k < table.rows(); ++k) {
-    const Bead &a = *by_id.at(ids_i[k]), &b = *by_id.at(ids_j[k]);
-    const Vec3 at = 0.5 * (a.centre + b.centre) - middle, way = (b.centre - a.centre).normalized();
     const BridgeState state =
         table.has("state") ? bridge_state(table.texts("state")[k]) : BridgeState::bridge;
     if (state == BridgeState::candidate)
@@ -47,10 +64,37 @@ void read(Observation& observation, const CsvTable& table) {
           table.where(k));
     columns["joined"].push_back(state == BridgeState::undetermined ? std::nan("")
                                                                    : double(state == BridgeState::bridge));
-    columns["cosine"].push_back(std::fabs(way.z()));
-    columns["height"].push_back(at.z() / (high.z() - low.z()) + 0.5);
-    columns["radius"].push_back(2.0 * std::hypot(at.x(), at.y()) / (high.x() - low.x()));
-    columns["separation_um"].push_back(kUm * gap(a, b));
+    places.add(columns, ids_i[k], ids_j[k]);
+  }
+}
+
+/// Adds the pairs that a table of bridges alone says to have none. They are as often a bridge that was not
+/// seen as listed ones are none.
+void add_pairs_without(double cutoff, Observation& observation, std::vector<std::string>& warnings) {
+  const auto beads = read_beads(observation.beads);
+  const auto without =
+      pairs_without(beads, read_bridges(observation.file, beads), cutoff * mean_diameter(beads));
+  if (without.empty()) return;
+  warnings.push_back(
+      fmt::format("{}: every pair that is listed has a bridge; {} near pairs of its beads that are not "
+                  "listed count as without",
+                  observation.name, without.size()));
+  auto& columns = observation.columns;
+  const Places places(beads);
+  const double missed = columns.contains("probability") ? 1.0 - mean_of(columns.at("probability")) : 0.0;
+  for (const Bridge& pair : without) {
+    const auto id_i = beads[static_cast<std::size_t>(pair.i)].id,
+               id_j = beads[static_cast<std::size_t>(pair.j)].id;
+    columns["joined"].push_back(0.0);
+    places.add(columns, id_i, id_j);
+    const std::map<std::string, double> stated = {{"bead_i", static_cast<double>(id_i)},
+                                                  {"bead_j", static_cast<double>(id_j)},
+                                                  {"gap_um", kUm * pair.gap},
+                                                  {"sigma_gap_um", kUm * pair.sigma_gap},
+                                                  {"probability", missed}};
+    for (const auto& name : observation.kind->required) columns[name].push_back(stated.at(name));
+    for (const auto& name : observation.kind->optional)
+      if (columns.contains(name)) columns[name].push_back(stated.contains(name) ? stated.at(name) : 0.0);
   }
 }
 
@@ -64,10 +108,6 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
   if (static_cast<std::size_t>(determined) < kLeastPairs)
     bad_input("{}: found {} pairs whose state is determined, expected at least {}", observation.file.string(),
               determined, kLeastPairs);
-  if (std::none_of(joined.begin(), joined.end(), [](double one) { return one == 0.0; }))
-    warnings.push_back(
-        observation.name +
-        ": every pair is said to have a bridge; pairs without one tell as much and should be listed");
   const double diameter = kUm * believed.beads.diameter,
                separation = median(observation.column("separation_um"));
   if (std::fabs(separation) > kFarPair * diameter)
@@ -85,6 +125,7 @@ void check(const Sample& believed, Observation& observation, std::vector<std::st
     of_necks.columns = {{"bridge_diameter_um", necks}};
     if (!necks.empty()) check_length(of_necks, "bridge_diameter_um", 0.01 * diameter, 0.99 * diameter);
   }
+  add_pairs_without(believed.bridges.cutoff, observation, warnings);
 }
 
 void course(const Observation& observation, Sample::Compression& course) {

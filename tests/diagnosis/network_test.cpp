@@ -1,7 +1,12 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <set>
+#include <utility>
 
 #include "base/temporary_folder.h"
 #include "diagnosis/experiment/specimens.h"
+#include "observations.h"
 #include "packing/bridges.h"
 #include "packing/statistics.h"
 #include "packing/tables.h"
@@ -84,6 +89,59 @@ TEST_F(MeasuredNetwork, NecksOfOtherMembersAreOffByTheirErrors) {
   }
   // χ² over its degrees of freedom, within four of its standard deviations.
   EXPECT_NEAR(square / count, 1.0, 4.0 * std::sqrt(2.0 / count));
+}
+
+/// Leaves the pairs with a bridge in the table, as one that counts bridges writes it.
+class ListOfBridges : public MeasuredNetwork {
+ protected:
+  ListOfBridges() {
+    all_ = std::exchange(measured_, {});
+    std::copy_if(all_.begin(), all_.end(), std::back_inserter(measured_),
+                 [](const Bridge& one) { return one.state == BridgeState::bridge; });
+    write_bridges(condition_.network, lattice(), measured_, {});
+    for (const Bridge& one : measured_) joined_.insert({one.i, one.j});
+  }
+
+  bool without(const Bridge& pair) const {
+    return pair.state != BridgeState::bridge && joined_.contains(pair.i) && joined_.contains(pair.j);
+  }
+
+  std::vector<Bridge> all_;
+  std::set<int> joined_;
+};
+
+TEST_F(ListOfBridges, OtherNearPairsOfItsBeadsAreSimulatedWithout) {
+  const Packing packing = simulated(1);
+  ASSERT_EQ(packing.bridges.size(), all_.size());
+  int none = 0;
+  for (std::size_t k = 0; k < all_.size(); ++k) {
+    EXPECT_EQ(packing.bridges[k].state, without(all_[k])                       ? BridgeState::none
+                                        : all_[k].state == BridgeState::bridge ? BridgeState::bridge
+                                                                               : BridgeState::candidate);
+    none += without(all_[k]);
+  }
+  EXPECT_GT(none, 50);
+}
+
+TEST_F(ListOfBridges, OtherNearPairsOfItsBeadsAreObservedWithout) {
+  Observation observation = test::observation(kinds::bridges(), "network", {});
+  observation.file = condition_.network, observation.beads = condition_.beads;
+  const CsvTable table = read_csv(
+      condition_.network, observation.kind->required,
+      {"gap_um", "sigma_gap_um", "probability", "bridge_diameter_um", "sigma_bridge_diameter_um", "state"});
+  for (const auto& name : observation.kind->required) observation.columns[name] = table.numbers(name);
+  for (const auto& name : observation.kind->optional) observation.columns[name] = table.numbers(name);
+  observation.kind->read(observation, table);
+  std::vector<std::string> warnings;
+  observation.kind->check(condition_.sample, observation, warnings);
+  const auto none = static_cast<std::size_t>(
+      std::count_if(all_.begin(), all_.end(), [&](const Bridge& one) { return without(one); }));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find(fmt::format("{} near pairs", none)), std::string::npos) << warnings[0];
+  for (const auto& [name, column] : observation.columns)
+    EXPECT_EQ(column.size(), measured_.size() + none) << name;
+  EXPECT_NEAR(test::value(observation, "bridged_share"),
+              static_cast<double>(measured_.size()) / static_cast<double>(measured_.size() + none), 1e-12);
 }
 
 TEST_F(MeasuredNetwork, WithoutItAllNearPairsAreCandidates) {
