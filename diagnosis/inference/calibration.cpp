@@ -20,6 +20,7 @@ constexpr double kRatios[] = {1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 7.0, 10.0
 constexpr double kLeastProbability = 0.01;  // that a wrong answer is charged with: few runs are not to decide
 constexpr double kHopeless = 60.0;          // evidence, as a logarithm, below the best one's
 constexpr double kConfident = 0.9;          // probability of what is said without doubt
+constexpr double kAsFar = 0.99;             // of a magnitude
 constexpr int kSteps = 5;                   // in which a level is raised
 constexpr double kBins[] = {0.0, 0.4, 0.6, 0.8, 0.9, 1.0};
 
@@ -52,6 +53,25 @@ double needed_widening(const Magnitude& magnitude, double theta) {
 }
 
 using Cases = std::vector<const Replayed*>;
+
+/// Runs of one effect that go no farther than another member's at the same sign. The response to others is
+/// extrapolated where their member is left out, which that to a measured specimen's effect need not be.
+Cases spanned(const Cases& cases) {
+  const auto farther = [](const Replayed& one, const Replayed& other) {
+    const auto& [id, theta] = *one.truth.begin();
+    const auto& [other_id, beyond] = *other.truth.begin();
+    return other.member != one.member && other_id == id && (theta < 0.0) == (beyond < 0.0) &&
+           std::fabs(beyond) >= kAsFar * std::fabs(theta);
+  };
+  Cases singles, found;
+  std::copy_if(cases.begin(), cases.end(), std::back_inserter(singles),
+               [](const Replayed* one) { return one->truth.size() == 1; });
+  std::copy_if(singles.begin(), singles.end(), std::back_inserter(found), [&](const Replayed* one) {
+    return std::any_of(singles.begin(), singles.end(),
+                       [&](const Replayed* other) { return farther(*one, *other); });
+  });
+  return found;
+}
 
 /// A known explanation of a replayed run, for the search of temperatures.
 struct Term {
@@ -224,14 +244,13 @@ bool on_tables_of_beads(const std::string& id) {
   return std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.id == id && one.beads; });
 }
 
-/// Widenings of intervals of θ. Effects on tables of beads have their own common one: that measured beads are
-/// only nearly found again (kThresholds.error_of_beads) is not so of replayed ones, whose magnitudes come out
-/// too small by it.
+/// Widenings of intervals of θ, by runs that others span. Effects on tables of beads have their own common
+/// one: that measured beads are only nearly found again (kThresholds.error_of_beads) is not so of replayed
+/// ones, whose magnitudes come out too small by it.
 void learn_widenings(const Cases& cases, Correction& found) {
   std::map<bool, std::vector<double>> alike;
   std::map<std::string, std::vector<double>> widenings;
-  for (const auto* one : cases) {
-    if (one->truth.size() != 1) continue;
+  for (const auto* one : spanned(cases)) {
     const Hypothesis* truth = said_of(one->said, truth_of(*one));
     if (!truth) continue;
     const double needed = needed_widening(truth->magnitudes.front(), one->truth.begin()->second);
@@ -311,15 +330,19 @@ void count_outside(const Replayed& one, const Correction& correction, OutsideRep
   outside.misnamed += said.front().id != kUnknown && said.front().probability > kConfident;
 }
 
+struct Counted {
+  double plain = 0.0, limits = 0.0, intervals = 0.0;
+};
+
 /// Adds what one replayed run shows of corrections that did not see its member.
-void count(const Replayed& one, const Correction& correction, Promise& promise,
-           std::vector<Reliability>& bins, double& magnitudes, double& plain) {
+void count(const Replayed& one, bool within_span, const Correction& correction, Promise& promise,
+           std::vector<Reliability>& bins, Counted& counted) {
   const auto said = corrected(one.said, correction);
   const AmbiguitySet set = set_of(said, correction);
   const std::string truth = truth_of(one);
   promise.in_set += right(set, one, correction);
   promise.set_size += static_cast<double>(set.ids.size());
-  if (one.truth.size() < 2) promise.false_alarms += holds(set, kUnknown), plain += 1.0;
+  if (one.truth.size() < 2) promise.false_alarms += holds(set, kUnknown), counted.plain += 1.0;
   const double top = said.front().probability;
   const auto bin =
       static_cast<std::size_t>(std::upper_bound(kBins + 1, std::end(kBins) - 1, top) - kBins - 1);
@@ -337,8 +360,9 @@ void count(const Replayed& one, const Correction& correction, Promise& promise,
   if (!named || one.truth.size() > 1) return;
   const auto& [low, high] = named->magnitudes.front().interval_90;
   const double theta = one.truth.begin()->second;
-  promise.theta_held += low <= theta && theta <= high, magnitudes += 1.0;
+  if (within_span) promise.theta_held += low <= theta && theta <= high, counted.intervals += 1.0;
   promise.limits_held += std::fabs(theta) <= upper_limit(named->magnitudes.front(), correction);
+  counted.limits += 1.0;
 }
 
 }  // namespace
@@ -377,21 +401,24 @@ Promise promise_of(const std::vector<Replayed>& replayed, double confidence, con
   promise.correction = promise.of_replayed;
   promise.correction.misfit = misfit;
   std::vector<Reliability> bins(std::size(kBins) - 1);
-  double magnitudes = 0.0, plain = 0.0;
+  const Cases within = spanned(cases);
+  const std::set<const Replayed*> of_spanned(within.begin(), within.end());
+  Counted counted;
   for (const int member : members) {
     Cases others;
     std::copy_if(cases.begin(), cases.end(), std::back_inserter(others),
                  [&](const Replayed* one) { return one->member != member; });
     const Correction without = learn(others, of_replayed(confidence), misfit);
     for (const auto* one : cases)
-      if (one->member == member) count(*one, without, promise, bins, magnitudes, plain);
+      if (one->member == member) count(*one, of_spanned.contains(one), without, promise, bins, counted);
     for (const auto* one : outside)
       if (one->member == member) count_outside(*one, without, promise.outside);
   }
   const double n = static_cast<double>(cases.size());
   promise.in_set /= n, promise.set_size /= n;
-  if (plain > 0.0) promise.false_alarms /= plain;
-  if (magnitudes > 0.0) promise.theta_held /= magnitudes, promise.limits_held /= magnitudes;
+  if (counted.plain > 0.0) promise.false_alarms /= counted.plain;
+  if (counted.limits > 0.0) promise.limits_held /= counted.limits;
+  if (counted.intervals > 0.0) promise.theta_held /= counted.intervals;
   for (auto& bin : bins) {
     if (bin.cases == 0) continue;
     bin.said /= static_cast<double>(bin.cases), bin.came_true /= static_cast<double>(bin.cases);

@@ -46,7 +46,7 @@ struct Promise {
   std::size_t cases = 0;     ///< 0: the bank is too small for a replay; the correction is not learnt
   double confidence = 0.95;  ///< with which sets are to hold the truth
   double in_set = 0.0, set_size = 0.0;
-  double theta_held = 0.0;    ///< share of 90 % intervals of θ that hold it
+  double theta_held = 0.0;    ///< share of 90 % intervals of θ that hold it, of runs that others span
   double limits_held = 0.0;   ///< share of upper limits (upper_limit()) that |θ| is not above
   double false_alarms = 0.0;  ///< share of runs with no effect or one whose set holds `unknown`
   std::vector<Reliability> reliability;

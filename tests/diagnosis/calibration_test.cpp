@@ -361,6 +361,24 @@ TEST(Calibration, EffectsOnTablesOfBeadsWidenNoOthers) {
   EXPECT_NEAR(promise.theta_held, 0.9, 0.04);
 }
 
+/// Runs in which these members went to a magnitude that is found too small by far.
+std::vector<Replayed> runs_that_go_far(int last_member) {
+  auto all = runs(1.0, 1.0, 1);
+  for (auto& one : all)
+    if (one.member <= last_member)
+      for (auto& [id, theta] : one.truth) theta = 5.0;
+  return all;
+}
+
+// Of b one member alone went there: where it is left out the bank does not span it.
+TEST(Calibration, IntervalsAreLearntFromRunsThatOthersSpan) {
+  const Promise alone = promise_of(runs_that_go_far(1), 0.95);
+  EXPECT_LT(alone.correction.widening.at("b"), 1.3);
+  EXPECT_NEAR(alone.theta_held, 0.9, 0.04);
+  const Promise spanned = promise_of(runs_that_go_far(3), 0.95);  // two members of b
+  EXPECT_GT(spanned.correction.widening.at("b"), 2.0);
+}
+
 TEST(Calibration, TooFewRunsPromiseNothingAndWiden) {
   auto few = runs(1.0, 1.0, 5);
   few.resize(20);
