@@ -25,7 +25,8 @@ struct DiagnosisThresholds {
   double fit_share = 0.35;       ///< the fit's own variance over the scatter's [Emulator]
   double to_diagonal = 0.35;     ///< share of a covariance that goes to its diagonal [replay]
   double response_error = 0.07;  ///< of a response, as a share of it [development]
-  double error_of_beads = 0.4;  ///< the same of effects on bead tables, only nearly found again [development]
+  double error_of_beads = 0.4;  ///< the same of effects on bead tables, only nearly found again; what they do
+                                ///< to the tables themselves is exact [development]
   double everywhere = 0.3;      ///< share of a response's error that has no direction [development]
   double together = 0.15;       ///< of their geometric mean, by which two effects do not add [development]
   double run_together = 0.07;   ///< likewise, where it was run what they do [development]

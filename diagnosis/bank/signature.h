@@ -67,6 +67,7 @@ struct Gap {
   /// What runs without an effect leave outside the span of all responses, squared, in units of the noise.
   std::vector<double> outside = {};
   Eigen::MatrixXd believed;  ///< what one standard deviation of each believed input does: a column each
+  std::vector<Eigen::Index> exact = {};  ///< features that do what effects say, with independent noise
 };
 
 }  // namespace pendular::diagnosis

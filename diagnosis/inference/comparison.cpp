@@ -6,6 +6,7 @@
 #include "base/eigensystem.h"
 #include "base/quantile.h"
 #include "base/random.h"
+#include "diagnosis/bank/contact_features.h"
 #include "diagnosis/bank/law_readings.h"
 #include "diagnosis/bank/mean_row.h"
 #include "diagnosis/bank/model_error.h"
@@ -129,6 +130,8 @@ class Learner {
       found_.noise.push_back(budget);
     }
     if (observed.level == Level::readings) found_.gap.covariance.diagonal() *= 1.0 + kThresholds.uncorrelated;
+    for (Eigen::Index f = 0; f < size(); ++f)
+      if (is_of_beads(observed.features[static_cast<std::size_t>(f)])) found_.gap.exact.push_back(f);
     // Welch and Satterthwaite: only the ensemble's part of the noise was estimated.
     found_.gap.dof = scatter.dof / std::max(1e-6, share * share);
   }

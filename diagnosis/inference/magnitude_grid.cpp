@@ -31,11 +31,14 @@ double log_prior_of(const Signature& signature, double theta, double width) {
   return std::log(width / (signature.highest - signature.lowest - absent));
 }
 
-/// How a reduced response is known by any run: to a share of itself.
-Eigen::VectorXd variance_of(const Signature& reduced, const Eigen::VectorXd& response) {
-  const double everywhere = kThresholds.everywhere * response.squaredNorm() /
-                            std::max<double>(1.0, static_cast<double>(response.size()));
-  return reduced.error * reduced.error * (response.array().square() + everywhere);
+/// How a reduced response is known by any run: to a share of itself in the directions that are not exact.
+Eigen::VectorXd variance_of(const Signature& reduced, const Eigen::VectorXd& response, Eigen::Index inexact) {
+  const auto free = response.head(inexact);
+  const double everywhere =
+      kThresholds.everywhere * free.squaredNorm() / std::max<double>(1.0, static_cast<double>(inexact));
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(response.size());
+  variance.head(inexact) = reduced.error * reduced.error * (free.array().square() + everywhere);
+  return variance;
 }
 
 }  // namespace
@@ -145,7 +148,7 @@ Expected MagnitudeGrid::expected_of(std::size_t effect, double theta) const {
   const Signature& signature = reduced_[effect];
   const Response& response = signature.response(theta);
   Expected found{response.at(theta), {}};
-  found.shares = variance_of(signature, found.response);
+  found.shares = variance_of(signature, found.response, space_.inexact());
   found.outside = std::pow(signature.outside, 2) * found.response.squaredNorm();
   if (response.draws.size() == 0) return found;
   const double grown = response.grown(theta);

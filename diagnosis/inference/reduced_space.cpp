@@ -40,7 +40,8 @@ double in_fresh_directions(const Eigen::MatrixXd& rows) {
 ReducedSpace::ReducedSpace(const Gap& gap, const std::vector<Signature>& signatures)
     : factor_(whole_covariance(gap)),
       precision_(factor_.solve(Eigen::MatrixXd::Identity(factor_.rows(), factor_.rows()))),
-      dof_(gap.dof > 0.0 ? std::min(gap.dof, kThresholds.most_dof) : 0.0) {
+      dof_(gap.dof > 0.0 ? std::min(gap.dof, kThresholds.most_dof) : 0.0),
+      exact_(gap.exact) {
   find_directions(signatures);
   dimensions_ = static_cast<double>(factor_.rows() - size());
   learn_outside(gap.outside);
@@ -54,12 +55,15 @@ void ReducedSpace::reduce(Response& response) const {
   const double whole = response.draws.cwiseProduct(precision_).sum();  // the trace, in units of the noise
   response.draws = reduced_covariance(response.draws);
   response.drawn_outside = std::max(0.0, whole - response.draws.trace());
+  const Eigen::Index free = inexact();
+  response.draws.rightCols(size() - free).setZero(), response.draws.bottomRows(size() - free).setZero();
   if (response.missed.rows() < kLeastRows) return;
-  Eigen::MatrixXd rows(response.missed.rows(), size());
+  Eigen::MatrixXd rows(response.missed.rows(), free);
   for (Eigen::Index r = 0; r < rows.rows(); ++r)
-    rows.row(r) = reduced(response.missed.row(r).transpose()).transpose();
-  const double scatter = reduced_covariance(response.scatter).trace() / static_cast<double>(size());
-  response.draws.diagonal().array() += std::max(0.0, in_fresh_directions(rows) - scatter);
+    rows.row(r) = reduced(response.missed.row(r).transpose()).head(free).transpose();
+  const double scatter =
+      reduced_covariance(response.scatter).diagonal().head(free).sum() / static_cast<double>(free);
+  response.draws.diagonal().head(free).array() += std::max(0.0, in_fresh_directions(rows) - scatter);
   response.missed = {}, response.scatter = {};
 }
 
@@ -163,12 +167,17 @@ void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {
   for (const auto& signature : signatures)
     for (const double end : {signature.lowest, signature.highest})
       for (int k = 1; k <= kSpanned && end != 0.0; ++k) {
-        const Eigen::VectorXd response = whiten(signature.at(end * k / kSpanned));
+        Eigen::VectorXd response = whiten(signature.at(end * k / kSpanned));
+        response(exact_).setZero();
         const double length = response.norm();
         if (length > 0.0) columns.push_back(response * std::min(1.0, kThresholds.longest / length));
       }
   const Eigen::Index features = factor_.rows();
-  Eigen::MatrixXd directions = Eigen::MatrixXd::Identity(features, features);
+  std::vector<Eigen::Index> others;
+  for (Eigen::Index f = 0; f < features; ++f)
+    if (std::find(exact_.begin(), exact_.end(), f) == exact_.end()) others.push_back(f);
+  const Eigen::MatrixXd each = Eigen::MatrixXd::Identity(features, features);
+  Eigen::MatrixXd directions = each(Eigen::all, others);
   if (!columns.empty() && features > 2) {
     Eigen::MatrixXd all(features, static_cast<Eigen::Index>(columns.size()));
     for (std::size_t k = 0; k < columns.size(); ++k) all.col(static_cast<Eigen::Index>(k)) = columns[k];
@@ -182,7 +191,9 @@ void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {
       directions = qr.householderQ() * Eigen::MatrixXd::Identity(features, kept);
     }
   }
-  reducer_ = factor_.matrixU().solve(directions).transpose();
+  Eigen::MatrixXd with_exact(features, directions.cols() + static_cast<Eigen::Index>(exact_.size()));
+  with_exact << directions, each(Eigen::all, exact_);
+  reducer_ = factor_.matrixU().solve(with_exact).transpose();
 }
 
 // What known runs leave outside is a multiple of χ², of their mean and variance; without runs, χ² itself.

@@ -55,7 +55,8 @@ struct Fits {
 };
 
 /// Features in units of their noise, believed inputs included, reduced to the directions that responses of
-/// all effects span beyond it. What lies outside is kept as one number, its square.
+/// all effects span beyond it. What lies outside is kept as one number, its square. Features whose responses
+/// are exact are directions of their own, the last ones.
 class ReducedSpace {
  public:
   ReducedSpace(const Gap& gap, const std::vector<Signature>& signatures);
@@ -67,6 +68,8 @@ class ReducedSpace {
   Signature reduced(Signature signature) const;
   ReducedGap gap(const Eigen::VectorXd& values) const;
   Eigen::Index size() const { return reducer_.rows(); }
+  /// Of these directions, those in which responses have errors.
+  Eigen::Index inexact() const { return size() - static_cast<Eigen::Index>(exact_.size()); }
   /// The square of what is outside the span.
   double outside(const Eigen::VectorXd& v) const;
 
@@ -95,8 +98,9 @@ class ReducedSpace {
   Eigen::LLT<Eigen::MatrixXd> factor_;  // of the noise's covariance
   Eigen::MatrixXd precision_;           // its inverse
   double dof_;
-  Eigen::MatrixXd reducer_;  // whitens, and takes what is along orthonormal directions
-  double dimensions_ = 0.0;  // outside the span
+  std::vector<Eigen::Index> exact_;  // features
+  Eigen::MatrixXd reducer_;          // whitens, and takes what is along orthonormal directions
+  double dimensions_ = 0.0;          // outside the span
   double outside_scale_ = 1.0, log_outside_scale_ = 0.0, outside_dof_ = 1.0;
   double log_chi_ = 0.0;  // normalisation of the density outside
 };

@@ -81,6 +81,32 @@ TEST(Evidence, OfOneFeatureIsItsIntegralOverMagnitudes) {
   }
 }
 
+TEST(Evidence, ResponsesOfExactFeaturesHaveNoErrors) {
+  // As above with slope 3 and 40 %, and a second feature of value 1 that does 4 θ: without an error it says
+  // that θ is small, whatever the first one does.
+  double evidence = 0.0, first = 0.0;
+  const double step = 1e-4;
+  for (double theta = -8.0; theta < 8.0; theta += step) {
+    const double variance = 1.0 + 1.3 * std::pow(0.4 * 3.0 * theta, 2);
+    const double density = std::exp(-0.5 * std::pow(6.0 - 3.0 * theta, 2) / variance) /
+                           std::sqrt(2.0 * M_PI * variance) *
+                           std::exp(-0.5 * std::pow(1.0 - 4.0 * theta, 2)) / std::sqrt(2.0 * M_PI);
+    evidence += step * density / 16.0, first += step * theta * density / 16.0;
+  }
+  Gap gap{Eigen::Vector2d(1.0, 6.0), Eigen::Matrix2d::Identity(), 0.0, {}, Eigen::MatrixXd::Zero(2, 0)};
+  Signature s;
+  s.id = "a", s.powers = {Eigen::Vector2d(4.0, 3.0)}, s.lowest = -8.0, s.highest = 8.0, s.scale = 1.0,
+  s.error = 0.4;
+  const auto found = [&] {
+    const auto all = weigh(gap, {s});
+    return *std::find_if(all.begin(), all.end(), [](const auto& h) { return h.id == "a"; });
+  };
+  EXPECT_GT(found().magnitudes.front().mean, 2.0 * first / evidence);  // as if it had an error, too
+  gap.exact = {0};
+  EXPECT_NEAR(found().log_evidence, std::log(evidence), 0.02);
+  EXPECT_NEAR(found().magnitudes.front().mean, first / evidence, 0.01);
+}
+
 TEST(Evidence, WhatIsBelowTheLeastMagnitudeIsNone) {
   auto all = effects(1, 2.0);  // at 0.6 it is 1.2 standard deviations from none
   const Gap gap = gap_of(all[0].at(0.3));
