@@ -54,18 +54,24 @@ double needed_widening(const Magnitude& magnitude, double theta) {
 
 using Cases = std::vector<const Replayed*>;
 
+/// Runs of one effect.
+Cases singles_of(const Cases& cases) {
+  Cases singles;
+  std::copy_if(cases.begin(), cases.end(), std::back_inserter(singles),
+               [](const Replayed* one) { return one->truth.size() == 1; });
+  return singles;
+}
+
 /// Runs of one effect that go no farther than another member's at the same sign. The response to others is
 /// extrapolated where their member is left out, which that to a measured specimen's effect need not be.
-Cases spanned(const Cases& cases) {
+Cases spanned(const Cases& singles) {
   const auto farther = [](const Replayed& one, const Replayed& other) {
     const auto& [id, theta] = *one.truth.begin();
     const auto& [other_id, beyond] = *other.truth.begin();
     return other.member != one.member && other_id == id && (theta < 0.0) == (beyond < 0.0) &&
            std::fabs(beyond) >= kAsFar * std::fabs(theta);
   };
-  Cases singles, found;
-  std::copy_if(cases.begin(), cases.end(), std::back_inserter(singles),
-               [](const Replayed* one) { return one->truth.size() == 1; });
+  Cases found;
   std::copy_if(singles.begin(), singles.end(), std::back_inserter(found), [&](const Replayed* one) {
     return std::any_of(singles.begin(), singles.end(),
                        [&](const Replayed* other) { return farther(*one, *other); });
@@ -244,30 +250,32 @@ bool on_tables_of_beads(const std::string& id) {
   return std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.id == id && one.beads; });
 }
 
-/// Widenings of intervals of θ, by runs that others span. Effects on tables of beads have their own common
-/// one: that measured beads are only nearly found again (kThresholds.error_of_beads) is not so of replayed
-/// ones, whose magnitudes come out too small by it.
-void learn_widenings(const Cases& cases, Correction& found) {
+/// Widenings of intervals of θ that hold the magnitudes of some runs of single effects. Effects on tables of
+/// beads have their own common one: that measured beads are only nearly found again
+/// (kThresholds.error_of_beads) is not so of replayed ones, whose magnitudes come out too small by it.
+Widening widening_of(const Cases& singles) {
   std::map<bool, std::vector<double>> alike;
-  std::map<std::string, std::vector<double>> widenings;
-  for (const auto* one : spanned(cases)) {
+  std::map<std::string, std::vector<double>> needed;
+  for (const auto* one : singles) {
     const Hypothesis* truth = said_of(one->said, truth_of(*one));
     if (!truth) continue;
-    const double needed = needed_widening(truth->magnitudes.front(), one->truth.begin()->second);
-    alike[on_tables_of_beads(truth->id)].push_back(needed);
-    widenings[truth->id].push_back(needed);
+    const double factor = needed_widening(truth->magnitudes.front(), one->truth.begin()->second);
+    alike[on_tables_of_beads(truth->id)].push_back(factor);
+    needed[truth->id].push_back(factor);
   }
   std::map<bool, double> common;
   for (auto& [on_tables, values] : alike)
     common[on_tables] = std::max(1.0, conformal(std::move(values), kThresholds.of_theta));
-  if (common.contains(false)) found.widening_of_others = common[false];
-  for (auto& [id, values] : widenings) {
+  Widening found;
+  if (common.contains(false)) found.others = common[false];
+  for (auto& [id, values] : needed) {
     const double n = static_cast<double>(values.size()),
                  own = std::max(0.3, conformal(std::move(values), kThresholds.of_theta)),
                  log_common = std::log(common[on_tables_of_beads(id)]);
-    found.widening[id] = std::max(1.0, std::exp((n * std::log(own) + kThresholds.worth_of_all * log_common) /
-                                                (n + kThresholds.worth_of_all)));
+    found.own[id] = std::max(1.0, std::exp((n * std::log(own) + kThresholds.worth_of_all * log_common) /
+                                           (n + kThresholds.worth_of_all)));
   }
+  return found;
 }
 
 /// Widening of upper limits, which follow from intervals.
@@ -278,8 +286,7 @@ void learn_limits(const Cases& cases, Correction& found) {
     if (one->truth.size() != 1) continue;
     const auto said = corrected(one->said, found);
     if (const Hypothesis* truth = said_of(said, truth_of(*one)))
-      limits.push_back(std::fabs(one->truth.begin()->second) /
-                       std::max(1e-12, upper_limit(truth->magnitudes.front(), found)));
+      limits.push_back(std::fabs(one->truth.begin()->second) / std::max(1e-12, upper_limit(*truth, found)));
   }
   found.widening_of_limits = limits.empty()
                                  ? Correction{}.widening_of_limits
@@ -312,7 +319,8 @@ Correction learn(const Cases& cases, double confidence, const Misfit& misfit) {
   learn_levels(said, cases, confidence, found);
   learn_what_is_told(said, cases, found);
   learn_levels_of_right_sets(said, cases, confidence, found);
-  learn_widenings(cases, found);
+  const Cases singles = singles_of(cases);
+  found.widening = widening_of(spanned(singles)), found.of_all = widening_of(singles);
   learn_limits(cases, found);
   return found;
 }
@@ -361,7 +369,7 @@ void count(const Replayed& one, bool within_span, const Correction& correction, 
   const auto& [low, high] = named->magnitudes.front().interval_90;
   const double theta = one.truth.begin()->second;
   if (within_span) promise.theta_held += low <= theta && theta <= high, counted.intervals += 1.0;
-  promise.limits_held += std::fabs(theta) <= upper_limit(named->magnitudes.front(), correction);
+  promise.limits_held += std::fabs(theta) <= upper_limit(*named, correction);
   counted.limits += 1.0;
 }
 
@@ -401,7 +409,7 @@ Promise promise_of(const std::vector<Replayed>& replayed, double confidence, con
   promise.correction = promise.of_replayed;
   promise.correction.misfit = misfit;
   std::vector<Reliability> bins(std::size(kBins) - 1);
-  const Cases within = spanned(cases);
+  const Cases within = spanned(singles_of(cases));
   const std::set<const Replayed*> of_spanned(within.begin(), within.end());
   Counted counted;
   for (const int member : members) {

@@ -78,9 +78,11 @@ bool holds(const AmbiguitySet& set, const std::string& id) {
   return std::find(set.ids.begin(), set.ids.end(), id) != set.ids.end();
 }
 
-double upper_limit(const Magnitude& magnitude, const Correction& correction) {
-  return correction.widening_of_limits *
-         std::max(std::fabs(magnitude.interval_90.first), std::fabs(magnitude.interval_90.second));
+double upper_limit(const Hypothesis& effect, const Correction& correction) {
+  const auto& [mean, interval] = effect.magnitudes.front();
+  const double wider = correction.of_all.of(effect.id) / correction.widening.of(effect.id);
+  return correction.widening_of_limits * std::max(std::fabs(mean + wider * (interval.first - mean)),
+                                                  std::fabs(mean + wider * (interval.second - mean)));
 }
 
 std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction) {
@@ -95,8 +97,7 @@ std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction
   const double total = log_sum(logs);
   for (std::size_t k = 0; k < said.size(); ++k) {
     said[k].probability = std::exp(logs[k] - total);
-    const auto own = correction.widening.find(said[k].id);
-    const double widening = own == correction.widening.end() ? correction.widening_of_others : own->second;
+    const double widening = correction.widening.of(said[k].id);
     for (auto& [mean, interval] : said[k].magnitudes)
       interval = {mean + widening * (interval.first - mean), mean + widening * (interval.second - mean)};
   }

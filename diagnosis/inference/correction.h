@@ -20,6 +20,18 @@ struct ToldFrom {
   bool tells(double theta) const { return theta < 0.0 ? -theta >= negative : theta >= positive; }
 };
 
+/// By how much intervals of θ are widened about their means.
+struct Widening {
+  std::map<std::string, double> own = {};  ///< of an effect
+  double others = 2.0;
+
+  double of(const std::string& effect) const {
+    const auto found = own.find(effect);
+    return found == own.end() ? others : found->second;
+  }
+  friend bool operator==(const Widening&, const Widening&) = default;
+};
+
 /// How probabilities, sets and intervals are made to hold what they promise, learnt from a replay; as it
 /// stands, for a bank that is too small for one: wide.
 struct Correction {
@@ -30,9 +42,9 @@ struct Correction {
   double level = 0.95;                ///< of the known explanations' probability, that a set holds
   std::map<std::string, double> levels = {};  ///< likewise, for explanations that need another one to get in
   double gate = 0.1;                          ///< P(unknown) from which it is in the set
-  std::map<std::string, double> widening = {};  ///< of an effect's interval of θ
-  double widening_of_others = 2.0;
-  double widening_of_limits = 2.0;                 ///< of upper limits of |θ|, beside that of intervals
+  Widening widening = {};                     ///< of intervals of θ
+  Widening of_all = {};                       ///< likewise, to hold the magnitudes of all replayed runs
+  double widening_of_limits = 2.0;            ///< of upper limits of |θ|, beside the latter
   std::map<std::string, ToldFrom> told_from = {};  ///< of effects; one that is not in it, at any magnitude
   std::set<std::string> untold_pairs = {};         ///< that are not told from none or an effect of theirs
 };
@@ -43,9 +55,9 @@ struct AmbiguitySet {
   double probability = 0.0;
 };
 
-/// Upper limit of |θ|, at 95 %, of an effect that is there: the farther end of its corrected interval,
-/// widened.
-double upper_limit(const Magnitude& magnitude, const Correction& correction);
+/// Upper limit of |θ|, at 95 %, of a corrected single effect that is there: the farther end of an interval
+/// that holds the magnitudes of all replayed runs, widened.
+double upper_limit(const Hypothesis& effect, const Correction& correction);
 
 /// Probabilities by tempered evidence, and intervals widened about their means. Pairs that were not run are
 /// one explanation, kOtherPairs. Where misfits were learnt, `unknown` is judged by them: beside an

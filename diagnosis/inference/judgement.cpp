@@ -131,8 +131,7 @@ void set_unseen(const std::vector<Hypothesis>& hypotheses, Diagnosis& diagnosis)
     const bool behind = is_in(set, kNone) && stand_in(h, hypotheses, correction);
     if (!behind && !told_at_no_magnitude(effect, correction)) continue;
     const double largest = std::max(std::fabs(effect.lowest), std::fabs(effect.highest));
-    diagnosis.unseen.push_back(
-        {h.id, effect.unit, std::min(largest, upper_limit(h.magnitudes.front(), correction))});
+    diagnosis.unseen.push_back({h.id, effect.unit, std::min(largest, upper_limit(h, correction))});
   }
 }
 

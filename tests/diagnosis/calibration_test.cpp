@@ -60,7 +60,7 @@ TEST(Calibration, LeavesRightProbabilitiesAlone) {
     EXPECT_NEAR(bin.said * (1.0 + Misfit{}.odds), bin.came_true, 0.08);  // none of them is unknown
   }
   EXPECT_NEAR(promise.theta_held, 0.9, 0.04);
-  EXPECT_LT(promise.correction.widening_of_others, 1.15);
+  EXPECT_LT(promise.correction.widening.others, 1.15);
   EXPECT_GE(promise.limits_held, 0.95);  // of either sign: wider than one-sided
 }
 
@@ -68,7 +68,7 @@ TEST(Calibration, MendsProbabilitiesAndIntervalsThatAreTooSharp) {
   const auto sharp = runs(3.0, 2.0, 2);
   const Promise promise = promise_of(sharp, 0.95);
   EXPECT_NEAR(promise.correction.temperature, 3.0, 1.01);
-  EXPECT_NEAR(promise.correction.widening_of_others, 2.0, 0.3);  // errors are twice as large as stated
+  EXPECT_NEAR(promise.correction.widening.others, 2.0, 0.3);  // errors are twice as large as stated
   EXPECT_NEAR(promise.theta_held, 0.9, 0.04);
   for (const auto& bin : promise.reliability) {
     if (bin.cases < 50) continue;
@@ -355,9 +355,9 @@ TEST(Calibration, EffectsOnTablesOfBeadsWidenNoOthers) {
       }
   }
   const Promise promise = promise_of(all, 0.95);
-  EXPECT_GT(promise.correction.widening.at("position_error"), 3.0);
-  for (const char* id : {"a", "b"}) EXPECT_LT(promise.correction.widening.at(id), 1.3) << id;
-  EXPECT_LT(promise.correction.widening_of_others, 1.2);
+  EXPECT_GT(promise.correction.widening.own.at("position_error"), 3.0);
+  for (const char* id : {"a", "b"}) EXPECT_LT(promise.correction.widening.own.at(id), 1.3) << id;
+  EXPECT_LT(promise.correction.widening.others, 1.2);
   EXPECT_NEAR(promise.theta_held, 0.9, 0.04);
 }
 
@@ -373,10 +373,10 @@ std::vector<Replayed> runs_that_go_far(int last_member) {
 // Of b one member alone went there: where it is left out the bank does not span it.
 TEST(Calibration, IntervalsAreLearntFromRunsThatOthersSpan) {
   const Promise alone = promise_of(runs_that_go_far(1), 0.95);
-  EXPECT_LT(alone.correction.widening.at("b"), 1.3);
+  EXPECT_LT(alone.correction.widening.own.at("b"), 1.3);
   EXPECT_NEAR(alone.theta_held, 0.9, 0.04);
   const Promise spanned = promise_of(runs_that_go_far(3), 0.95);  // two members of b
-  EXPECT_GT(spanned.correction.widening.at("b"), 2.0);
+  EXPECT_GT(spanned.correction.widening.own.at("b"), 2.0);
 }
 
 TEST(Calibration, TooFewRunsPromiseNothingAndWiden) {
@@ -385,7 +385,7 @@ TEST(Calibration, TooFewRunsPromiseNothingAndWiden) {
   const Promise promise = promise_of(few, 0.95);
   EXPECT_EQ(promise.cases, 0u);
   EXPECT_GE(promise.correction.temperature, 2.0);
-  EXPECT_GE(promise.correction.widening_of_others, 2.0);
+  EXPECT_GE(promise.correction.widening.others, 2.0);
 }
 
 TEST(Calibration, EffectsThatLookLikeNoneAreListed) {
