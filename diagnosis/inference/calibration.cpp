@@ -338,6 +338,7 @@ void count_outside(const Replayed& one, const Correction& correction, OutsideRep
   outside.misnamed += said.front().id != kUnknown && said.front().probability > kConfident;
 }
 
+/// Replayed runs of which each share of a promise is one.
 struct Counted {
   double plain = 0.0, limits = 0.0, intervals = 0.0;
 };
