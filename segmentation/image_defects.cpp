@@ -73,7 +73,7 @@ bool breaks(const std::vector<Slice>& slices, std::size_t k) {
          std::abs(after.spread - before.spread) < kThresholds.slice_alike * before.spread;
 }
 
-void add_slice_defects(const Volume& volume, std::vector<std::string>& defects) {
+void add_slice_defects(const Volume& volume, std::size_t first_slice, std::vector<std::string>& defects) {
   std::vector<Slice> slices(volume.size[2]);
   with_pixels(volume, [&](auto pixels) {
     for_blocks(slices.size(), 1,
@@ -82,11 +82,11 @@ void add_slice_defects(const Volume& volume, std::vector<std::string>& defects) 
   std::vector<std::size_t> even, repeated, broken;
   for (std::size_t k = 0; k < slices.size(); ++k) {
     if (slices[k].spread == 0.0)
-      even.push_back(k);
+      even.push_back(first_slice + k);
     else if (k && slices[k].change == 0.0)
-      repeated.push_back(k);
+      repeated.push_back(first_slice + k);
     else if (breaks(slices, k))
-      broken.push_back(k);
+      broken.push_back(first_slice + k);
   }
   if (!even.empty()) defects.push_back(fmt::format("{}, from 0 on: one grey value throughout", named(even)));
   if (!repeated.empty())
@@ -120,10 +120,11 @@ void add_clipping(const Histogram& histogram, bool greatest, std::vector<std::st
 
 }  // namespace
 
-std::vector<std::string> image_defects(const Volume& volume, const Histogram& histogram) {
+std::vector<std::string> image_defects(const Volume& volume, const Histogram& histogram,
+                                       std::size_t first_slice) {
   std::vector<std::string> defects;
   for (const bool greatest : {false, true}) add_clipping(histogram, greatest, defects);
-  add_slice_defects(volume, defects);
+  add_slice_defects(volume, first_slice, defects);
   release(volume);
   return defects;
 }

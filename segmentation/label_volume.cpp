@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "segmentation/rows.h"
+#include "segmentation/search/padding.h"
 #include "segmentation/segment.h"
 
 namespace pendular::segmentation {
@@ -75,13 +76,15 @@ std::vector<Label> labels_of(const Volume& volume, const Segmentation& segmentat
   std::vector<Bead> bodies = segmentation.beads;
   bodies.insert(bodies.end(), segmentation.grains.begin(), segmentation.grains.end());
   const Owners owner(volume, bodies);
+  const Box box = without_padding(volume);
   std::vector<Label> labels(volume.voxels(), 0);
   with_pixels(volume, [&](auto pixels) {
-    for_blocks(volume.size[2], 1, [&](std::size_t k, std::size_t) {
-      for (std::size_t j = 0; j < volume.size[1]; ++j) {
+    for_blocks(box.high[2] - box.low[2], 1, [&](std::size_t slice, std::size_t) {
+      const std::size_t k = box.low[2] + slice;
+      for (std::size_t j = box.low[1]; j < box.high[1]; ++j) {
         const auto [first, last] = row_within(volume, segmentation.specimen, j, k);
         const std::size_t row = (k * volume.size[1] + j) * volume.size[0];
-        for (std::size_t i = first; i < last; ++i)
+        for (std::size_t i = std::max(first, box.low[0]); i < std::min(last, box.high[0]); ++i)
           if ((static_cast<double>(pixels[row + i]) > segmentation.levels.threshold) ==
               segmentation.bright_beads)
             labels[row + i] = static_cast<Label>(owner(i, j, k));

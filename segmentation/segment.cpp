@@ -14,6 +14,7 @@
 #include "segmentation/fit/bead_fit.h"
 #include "segmentation/image_defects.h"
 #include "segmentation/rows.h"
+#include "segmentation/search/padding.h"
 #include "segmentation/thresholds.h"
 #include "volume/resample.h"
 
@@ -172,21 +173,44 @@ Segmentation segmented(const Volume& volume, const BeadSearch& search, const Seg
   return result;
 }
 
-}  // namespace
+void require_size(const std::array<std::size_t, 3>& size, const std::string& why) {
+  constexpr std::size_t fewest = 16;
+  if (*std::min_element(size.begin(), size.end()) < fewest)
+    bad_input("volume of {} x {} x {} voxels, expected at least {} along each axis{}", size[0], size[1],
+              size[2], fewest, why);
+}
 
-Segmentation segment(const Volume& volume, const SegmentOptions& options) {
-  for (const std::size_t n : volume.size)
-    if (n < 16)
-      bad_input("volume of {} x {} x {} voxels, expected at least 16 along each axis", volume.size[0],
-                volume.size[1], volume.size[2]);
+std::string words_of(const Box& box) {
+  return fmt::format(
+      "outer planes hold one grey value and are left out; voxels x {} to {}, y {} to {}, z {} to {}, from 0 "
+      "on, "
+      "are used",
+      box.low[0], box.high[0] - 1, box.low[1], box.high[1] - 1, box.low[2], box.high[2] - 1);
+}
+
+/// Of a volume without padding, whose first slice is the `first_slice`-th of the one it was taken from.
+Segmentation segmented_finely(const Volume& volume, const SegmentOptions& options, std::size_t first_slice,
+                              std::vector<std::string> defects) {
   const BeadSearch search = search_with(volume, options);
-  const auto defects = image_defects(volume, search.histogram);
+  for (auto& defect : image_defects(volume, search.histogram, first_slice))
+    defects.push_back(std::move(defect));
   if (!may_refine(volume) || !mostly_spherical(search) ||
       typical_radius(search.seeds) > kThresholds.refined_below)
     return segmented(volume, search, options, defects);
   Volume finer = resampled(volume, {2.0, 2.0, 2.0});
   finer.spacing *= 0.5;
   return segmented(finer, search_with(finer, options), options, defects);
+}
+
+}  // namespace
+
+Segmentation segment(const Volume& volume, const SegmentOptions& options) {
+  require_size(volume.size, "");
+  const Box whole{{}, volume.size}, box = without_padding(volume);
+  if (box == whole) return segmented_finely(volume, options, 0, {});
+  const Volume part = part_of(volume, box);
+  require_size(part.size, "; " + words_of(box));
+  return segmented_finely(part, options, box.low[2], {words_of(box)});
 }
 
 }  // namespace pendular::segmentation

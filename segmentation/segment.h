@@ -39,13 +39,13 @@ struct Segmentation {
 
 /// Beads by seeds and a fit of each one's blurred edge in the raw grey values (segmentation/fit/bead_fit.h),
 /// with standard errors that account for correlated noise, and the pairs near enough for a bridge. `quality`
-/// is 1/(1 + (m/0.15)²), m the model's misfit beyond the noise over the bead's contrast. BadInput where there
-/// is no bead.
+/// is 1/(1 + (m/0.15)²), m the model's misfit beyond the noise over the bead's contrast. Padding
+/// (search/padding.h) is no part of the picture. BadInput where there is no bead.
 Segmentation segment(const Volume& volume, const SegmentOptions& options = {});
 
 /// Number of the bead for each voxel of bead material (its place in `beads`, from 1; the grains' follow), 0
-/// elsewhere and outside the specimen. A voxel belongs to the body whose surface is nearest, |x − c| − R
-/// least. uint16, or uint32 beyond 65,535 bodies.
+/// elsewhere, in padding and outside the specimen. A voxel belongs to the body whose surface is nearest, |x −
+/// c| − R least. uint16, or uint32 beyond 65,535 bodies.
 Volume label_volume(const Volume& volume, const Segmentation& segmentation);
 
 }  // namespace pendular::segmentation

@@ -36,6 +36,7 @@ struct SegmentationThresholds {
   double neck_sigmas = 4.0;        ///< of the polymer's contrast [BridgeSearch]
 
   // Defects of an image.
+  double padding_within = 0.01;  ///< of the voxels of the specimen's middle [Padding]
   double slice_rise = 1.25;      ///< change to the next slice over the usual one [OddVolumes.LostAndRepeated]
   double slice_over_next = 4.0;  ///< excess of a change over those beside it [OddVolumes.LostAndRepeated]
   double slice_alike = 0.3;      ///< spreads between the means before and after [OddVolumes.LostAndRepeated]

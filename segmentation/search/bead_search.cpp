@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "base/parallel.h"
 #include "segmentation/search/field_of_view.h"
+#include "segmentation/search/padding.h"
 #include "segmentation/thresholds.h"
 #include "volume/resample.h"
 
@@ -156,7 +157,10 @@ BeadSearch search_bodies(const Volume& volume, BeadTone tone, const BallShare& b
   BeadSearch search;
   const auto view = field_of_view(volume);
   search.histogram = histogram_of(volume);
-  if (view) leave_out(search.histogram, *view);
+  if (view)
+    leave_out(search.histogram, *view);
+  else
+    leave_out_corners(search.histogram, volume);
   search.levels = grey_levels(search.histogram);
   search.bright = tone != BeadTone::dark;
   release(volume);

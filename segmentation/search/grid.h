@@ -28,9 +28,10 @@ struct Grid {
   }
 };
 
-/// A part of a grid: nodes from `low` to below `high`.
+/// A part of a grid or volume: from `low` to below `high`.
 struct Box {
   std::array<std::size_t, 3> low{}, high{};
+  bool operator==(const Box&) const = default;
 };
 
 /// That part as a grid of its own, its first node at what `low` is in the whole.
