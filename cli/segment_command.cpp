@@ -153,7 +153,7 @@ void add_segment(CLI::App& app) {
       ->expected(3)
       ->check(CLI::Range(1, 1 << 24));
   command->add_option("--type", options->type, "Raw data: pixel type, little endian")
-      ->check(CLI::IsMember({"uint8", "uint16", "float"}));
+      ->check(CLI::IsMember({"uint8", "int8", "uint16", "int16", "uint32", "int32", "float", "double"}));
   command->add_option("--bridges", options->bridges,
                       "Look for polymer between near beads and write what is found (bridges.csv)");
   command

@@ -36,7 +36,10 @@ void read_header(itk::ImageIOBase& io, const fs::path& path) {
               io.GetNumberOfComponents());
 }
 
-void read_pixels(itk::ImageIOBase& io, const fs::path& path, char* target) {
+namespace {
+
+/// All of a file, as ITK has them in memory.
+void read_numbers(itk::ImageIOBase& io, const fs::path& path, char* target) {
   itk::ImageIORegion region(io.GetNumberOfDimensions());
   for (unsigned axis = 0; axis < io.GetNumberOfDimensions(); ++axis) {
     region.SetIndex(axis, 0);
@@ -45,6 +48,8 @@ void read_pixels(itk::ImageIOBase& io, const fs::path& path, char* target) {
   io.SetIORegion(region);
   guarded(path, [&] { io.Read(target); });
 }
+
+}  // namespace
 
 void write_png(const fs::path& path, std::size_t width, std::size_t height,
                std::span<const std::uint8_t> pixels) {
@@ -71,20 +76,43 @@ void write_png(const fs::path& path, std::size_t width, std::size_t height,
   });
 }
 
-Volume::Pixels pixels_of(itk::IOComponentEnum type, const fs::path& path) {
-  switch (type) {
+Stored stored_type(const itk::ImageIOBase& io, const fs::path& path) {
+  switch (io.GetComponentType()) {
     case itk::IOComponentEnum::UCHAR:
-      return std::vector<std::uint8_t>();
+      return Stored::uint8;
     case itk::IOComponentEnum::USHORT:
-      return std::vector<std::uint16_t>();
-    case itk::IOComponentEnum::FLOAT:
-      return std::vector<float>();
+      return Stored::uint16;
     case itk::IOComponentEnum::UINT:
-      return std::vector<std::uint32_t>();
+      return Stored::uint32;
+    case itk::IOComponentEnum::FLOAT:
+      return Stored::float32;
+    case itk::IOComponentEnum::CHAR:
+      return Stored::int8;
+    case itk::IOComponentEnum::SHORT:
+      return Stored::int16;
+    case itk::IOComponentEnum::INT:
+      return Stored::int32;
+    case itk::IOComponentEnum::DOUBLE:
+      return Stored::float64;
     default:
-      bad_input("{}: found pixel type {}, expected unsigned 8 or 16 bit or float", path.string(),
-                itk::ImageIOBase::GetComponentTypeAsString(type));
+      bad_input("{}: found pixel type {}, expected {}", path.string(),
+                itk::ImageIOBase::GetComponentTypeAsString(io.GetComponentType()), kStoredTypes);
   }
+}
+
+Stored picture_type(const itk::ImageIOBase& io, const fs::path& path) {
+  const Stored type = stored_type(io, path);
+  if (type == Stored::uint32 || type == Stored::int32)
+    bad_input("{}: found whole numbers of 32 bit, expected of 8 or 16 bit, or float", path.string());
+  return type;
+}
+
+void read_pixels(itk::ImageIOBase& io, const fs::path& path, Volume& volume, std::size_t first) {
+  const Stored type = stored_type(io, path);
+  if (is_kept(type)) return read_numbers(io, path, bytes(volume) + first * width_of(type));
+  std::vector<std::byte> numbers(static_cast<std::size_t>(io.GetImageSizeInBytes()));
+  read_numbers(io, path, reinterpret_cast<char*>(numbers.data()));
+  convert(numbers, type, false, volume, first);
 }
 
 }  // namespace pendular

@@ -30,18 +30,21 @@ void guarded(const fs::path& path, const Call& call) {
 /// The reader of a TIFF or PNG; BadInput for any other extension.
 itk::ImageIOBase::Pointer reader_of(const fs::path& path);
 
-/// The header of one file: grey, of a pixel type that is kept as it is.
+/// The header of one file, which is grey.
 void read_header(itk::ImageIOBase& io, const fs::path& path);
 
-/// All voxels of a file, its header having been read.
-void read_pixels(itk::ImageIOBase& io, const fs::path& path, char* target);
+/// What a file's numbers are, its header having been read. BadInput for what is no number.
+Stored stored_type(const itk::ImageIOBase& io, const fs::path& path);
+
+/// Of a TIFF or PNG. BadInput also for whole numbers of 32 bit, which ITK's reader takes for zeros.
+Stored picture_type(const itk::ImageIOBase& io, const fs::path& path);
+
+/// All voxels of a file become the volume's, which has the type for them, from the `first` on.
+void read_pixels(itk::ImageIOBase& io, const fs::path& path, Volume& volume, std::size_t first);
 
 /// A picture of width × height pixels of red, green, blue, rows from the top, as a PNG: whole or not at all.
 /// ComputationFailed where it cannot be written.
 void write_png(const fs::path& path, std::size_t width, std::size_t height,
                std::span<const std::uint8_t> pixels);
-
-/// No pixels yet, of that type. BadInput for any other.
-Volume::Pixels pixels_of(itk::IOComponentEnum type, const fs::path& path);
 
 }  // namespace pendular

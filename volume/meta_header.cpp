@@ -34,16 +34,16 @@ bool is_set(const HeaderFields& fields, const char* key, bool otherwise = false)
   bad_input("{}: found \"{}\", expected True or False", fields.where(key), word);
 }
 
-Volume::Pixels pixels_named(const HeaderFields& fields) {
+Stored type_named(const HeaderFields& fields) {
   std::string type = fields.text("ElementType");
-  if (type == "MET_UCHAR") return std::vector<std::uint8_t>();
-  if (type == "MET_USHORT") return std::vector<std::uint16_t>();
-  if (type == "MET_FLOAT") return std::vector<float>();
-  if (type == "MET_UINT") return std::vector<std::uint32_t>();
-  if (type.starts_with("MET_")) type.erase(0, 4);
+  const bool named = type.starts_with("MET_");
+  if (named) type.erase(0, 4);
   std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
-  bad_input("{}: found pixel type {}, expected unsigned 8 or 16 bit or float", fields.where("ElementType"),
-            type);
+  for (const char* word : {"long_long", "ulong_long"})  // as MetaIO writes them
+    if (type == word) type.erase(type.find('_'), 1);
+  if (named)
+    if (const auto stored = stored_named(type)) return *stored;
+  bad_input("{}: found pixel type {}, expected {}", fields.where("ElementType"), type, kStoredTypes);
 }
 
 bool is_local(const std::string& name) {
@@ -127,9 +127,8 @@ VoxelHeader read_meta_header(const fs::path& path) {
   if (const auto channels = fields.integer("ElementNumberOfChannels", 1, 1000, 1); channels != 1)
     bad_input("{}: found {} components per voxel, expected one (grey)", path.string(), channels);
   VoxelHeader header;
-  header.pixels = pixels_named(fields);
-  const std::size_t bytes = std::visit([](const auto& pixels) { return sizeof(pixels[0]); }, header.pixels);
-  header.size = volume_size(fields, "DimSize", dimensions, bytes);
+  header.type = type_named(fields);
+  header.size = volume_size(fields, "DimSize", dimensions, width_of(header.type));
   header.place = place_of(fields);
   header.big_endian = is_set(fields, "BinaryDataByteOrderMSB") || is_set(fields, "ElementByteOrderMSB");
   const bool compressed = is_set(fields, "CompressedData"), binary = is_set(fields, "BinaryData", true);

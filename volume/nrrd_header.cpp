@@ -41,24 +41,10 @@ HeaderFields fields_in(HeaderText& text) {
   return fields;
 }
 
-Volume::Pixels pixels_named(const HeaderFields& fields) {
+Stored type_named(const HeaderFields& fields) {
   const std::string& type = fields.text("type");
-  static const std::map<std::string, Volume::Pixels> known = [] {
-    std::map<std::string, Volume::Pixels> all;
-    for (const char* name : {"uchar", "unsigned char", "uint8", "uint8_t"})
-      all[name] = std::vector<std::uint8_t>();
-    for (const char* name : {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"})
-      all[name] = std::vector<std::uint16_t>();
-    for (const char* name : {"uint", "unsigned int", "uint32", "uint32_t"})
-      all[name] = std::vector<std::uint32_t>();
-    all["float"] = std::vector<float>();
-    return all;
-  }();
-  const auto found = known.find(type);
-  if (found == known.end())
-    bad_input("{}: found pixel type \"{}\", expected unsigned 8 or 16 bit or float", fields.where("type"),
-              type);
-  return found->second;
+  if (const auto stored = stored_named(type)) return *stored;
+  bad_input("{}: found pixel type \"{}\", expected {}", fields.where("type"), type, kStoredTypes);
 }
 
 VoxelHeader::Encoding encoding_of(const HeaderFields& fields) {
@@ -185,10 +171,10 @@ VoxelHeader read_nrrd_header(const fs::path& path) {
   HeaderText text(path);
   const HeaderFields fields = fields_in(text);
   VoxelHeader header;
-  header.pixels = pixels_named(fields);
+  header.type = type_named(fields);
   const std::int64_t dimensions = fields.integer("dimension", 1, kMostDimensions);
   if (dimensions < 3) bad_input("{}: found an image of {} dimensions, expected 3", path.string(), dimensions);
-  const std::size_t bytes = std::visit([](const auto& pixels) { return sizeof(pixels[0]); }, header.pixels);
+  const std::size_t bytes = width_of(header.type);
   header.size = volume_size(fields, "sizes", dimensions, bytes);
   header.encoding = encoding_of(fields);
   header.big_endian = is_big_endian(fields, bytes, header.encoding);

@@ -2,12 +2,51 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstring>
+#include <map>
 #include <new>
+#include <type_traits>
 
 #include "base/error.h"
 
 namespace pendular {
 namespace {
+
+/// Whether a volume has pixels of this type.
+template <typename T>
+constexpr bool kept = std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint16_t> ||
+                      std::is_same_v<T, std::uint32_t> || std::is_same_v<T, float>;
+template <typename T>
+using Pixel = std::conditional_t<kept<T>, T, float>;
+
+/// Calls f with a number of the type.
+template <typename Function>
+decltype(auto) with_type(Stored type, Function&& f) {
+  switch (type) {
+    case Stored::uint8:
+      return f(std::uint8_t{});
+    case Stored::uint16:
+      return f(std::uint16_t{});
+    case Stored::uint32:
+      return f(std::uint32_t{});
+    case Stored::int8:
+      return f(std::int8_t{});
+    case Stored::int16:
+      return f(std::int16_t{});
+    case Stored::int32:
+      return f(std::int32_t{});
+    case Stored::int64:
+      return f(std::int64_t{});
+    case Stored::uint64:
+      return f(std::uint64_t{});
+    case Stored::float64:
+      return f(double{});
+    case Stored::float32:
+      break;
+  }
+  return f(float{});
+}
 
 /// Bytes of memory that the machine has.
 double memory() {
@@ -16,11 +55,62 @@ double memory() {
 
 }  // namespace
 
-Volume::Pixels pixels_of(const std::string& type) {
-  if (type == "uint8") return std::vector<std::uint8_t>();
-  if (type == "uint16") return std::vector<std::uint16_t>();
-  if (type == "float") return std::vector<float>();
-  throw BadUsage(fmt::format("--type: found '{}', expected uint8, uint16 or float", type));
+std::optional<Stored> stored_named(const std::string& name) {
+  static const std::map<std::string, Stored> known = [] {
+    std::map<std::string, Stored> all = {{"signed char", Stored::int8},
+                                         {"char", Stored::int8},
+                                         {"float", Stored::float32},
+                                         {"double", Stored::float64}};
+    const auto add = [&](const std::string& word, Stored with_sign, Stored without) {
+      for (const char* sign : {"", "signed "})
+        for (const char* end : {"", " int"}) all[sign + word + end] = with_sign;
+      for (const char* end : {"", " int"}) all["unsigned " + word + end] = without;
+      all["u" + word] = without;
+    };
+    add("short", Stored::int16, Stored::uint16);
+    add("longlong", Stored::int64, Stored::uint64);
+    add("long long", Stored::int64, Stored::uint64);
+    all["int"] = all["signed int"] = Stored::int32;
+    all["uint"] = all["unsigned int"] = Stored::uint32;
+    all["uchar"] = all["unsigned char"] = Stored::uint8;
+    const std::pair<int, std::pair<Stored, Stored>> sized[] = {{8, {Stored::int8, Stored::uint8}},
+                                                               {16, {Stored::int16, Stored::uint16}},
+                                                               {32, {Stored::int32, Stored::uint32}},
+                                                               {64, {Stored::int64, Stored::uint64}}};
+    for (const auto& [bits, types] : sized)
+      for (const char* end : {"", "_t"}) {
+        all[fmt::format("int{}{}", bits, end)] = types.first;
+        all[fmt::format("uint{}{}", bits, end)] = types.second;
+      }
+    return all;
+  }();
+  const auto found = known.find(name);
+  return found == known.end() ? std::nullopt : std::optional(found->second);
+}
+
+bool is_kept(Stored type) {
+  return with_type(type, []<typename T>(T) { return kept<T>; });
+}
+
+std::size_t width_of(Stored type) {
+  return with_type(type, []<typename T>(T) { return sizeof(T); });
+}
+
+Volume::Pixels pixels_of(Stored type) {
+  return with_type(type, []<typename T>(T) -> Volume::Pixels { return std::vector<Pixel<T>>(); });
+}
+
+void convert(std::span<const std::byte> numbers, Stored type, bool big_endian, Volume& volume,
+             std::size_t first) {
+  with_type(type, [&]<typename T>(T) {
+    auto& pixels = std::get<std::vector<Pixel<T>>>(volume.pixels);
+    for (std::size_t k = 0; k < numbers.size() / sizeof(T); ++k) {
+      std::array<std::byte, sizeof(T)> number;
+      std::memcpy(number.data(), numbers.data() + k * sizeof(T), sizeof(T));
+      if (big_endian) std::reverse(number.begin(), number.end());
+      pixels[first + k] = static_cast<Pixel<T>>(std::bit_cast<T>(number));
+    }
+  });
 }
 
 std::size_t bytes_per_voxel(const Volume& volume) {

@@ -57,52 +57,6 @@ std::size_t frames_of(const itk::ImageIOBase& io) {
   return io.GetNumberOfDimensions() > 2 ? io.GetDimensions(2) : 1;
 }
 
-/// Voxels as they lie in the file, converted.
-template <typename T>
-void convert(const std::vector<char>& raw, itk::IOComponentEnum type, T* target, std::size_t count) {
-  const auto from = [&](auto example) {
-    using Stored = decltype(example);
-    for (std::size_t k = 0; k < count; ++k) {
-      Stored value;
-      std::memcpy(&value, raw.data() + k * sizeof(Stored), sizeof(Stored));
-      // To whole numbers from their own type alone (kept_type). NOLINTNEXTLINE(bugprone-signed-char-misuse)
-      target[k] = static_cast<T>(value);
-    }
-  };
-  switch (type) {
-    case itk::IOComponentEnum::UCHAR:
-      return from(std::uint8_t{});
-    case itk::IOComponentEnum::CHAR:
-      return from(std::int8_t{});
-    case itk::IOComponentEnum::USHORT:
-      return from(std::uint16_t{});
-    case itk::IOComponentEnum::SHORT:
-      return from(std::int16_t{});
-    case itk::IOComponentEnum::UINT:
-      return from(std::uint32_t{});
-    case itk::IOComponentEnum::INT:
-      return from(std::int32_t{});
-    case itk::IOComponentEnum::DOUBLE:
-      return from(double{});
-    default:
-      return from(float{});
-  }
-}
-
-Volume::Pixels kept_type(itk::IOComponentEnum type) {
-  if (type == itk::IOComponentEnum::UCHAR) return std::vector<std::uint8_t>();
-  if (type == itk::IOComponentEnum::USHORT) return std::vector<std::uint16_t>();
-  return std::vector<float>();
-}
-
-void read_frames(itk::ImageIOBase& io, const fs::path& file, Volume& volume, std::size_t first_voxel) {
-  const std::size_t count = volume.size[0] * volume.size[1] * frames_of(io);
-  std::vector<char> raw(io.GetImageSizeInBytes());
-  read_pixels(io, file, raw.data());
-  std::visit([&](auto& pixels) { convert(raw, io.GetComponentType(), pixels.data() + first_voxel, count); },
-             volume.pixels);
-}
-
 /// Returns the edges of a voxel over the shortest.
 std::array<double, 3> set_spacing(Volume& volume, const itk::ImageIOBase& first, double between,
                                   const fs::path& path, const ReadOptions& options) {
@@ -119,7 +73,7 @@ Volume read_series(const fs::path& path, const ReadOptions& options) {
   Progress progress("reading slices", static_cast<double>(files.size()));
   const auto first = opened(files.front());
   Volume volume;
-  volume.pixels = kept_type(first->GetComponentType());
+  volume.pixels = pixels_of(stored_type(*first, path));
   volume.size = {first->GetDimensions(0), first->GetDimensions(1),
                  files.size() > 1 ? files.size() : frames_of(*first)};
   if (volume.size[2] < 2) bad_input("{}: found one slice, expected a volume", path.string());
@@ -140,7 +94,7 @@ Volume read_series(const fs::path& path, const ReadOptions& options) {
       bad_input("{}: found {:.6g} mm to the slice before it, expected {:.6g} as before (a slice missing?)",
                 files[k].string(), step, between);
     last = origin_of(*io);
-    read_frames(*io, files[k], volume, k * volume.size[0] * volume.size[1]);
+    read_pixels(*io, files[k], volume, k * volume.size[0] * volume.size[1]);
     progress.update(static_cast<double>(k + 1));
   }
   const auto edges = set_spacing(volume, *first, between, path, options);

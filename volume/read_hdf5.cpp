@@ -58,16 +58,16 @@ Volume::Pixels pixels_for(const Hdf5& set, const std::string& where) {
   if (kind == H5T_FLOAT && size <= 8) return std::vector<float>();
   if (kind == H5T_INTEGER) {
     const bool has_sign = H5Tget_sign(type) == H5T_SGN_2;
-    if (has_sign && size <= 2) return std::vector<float>();
     if (!has_sign && size == 1) return std::vector<std::uint8_t>();
     if (!has_sign && size == 2) return std::vector<std::uint16_t>();
     if (!has_sign && size == 4) return std::vector<std::uint32_t>();
+    if (size <= 8) return std::vector<float>();
   }
-  bad_input("{}: found {} of {} bytes, expected unsigned 8 or 16 bit, signed 8 or 16 bit, or float", where,
+  bad_input("{}: found {} of {} bytes, expected {}", where,
             kind == H5T_INTEGER ? "integers"
             : kind == H5T_FLOAT ? "floats"
                                 : "something else than numbers",
-            size);
+            size, kStoredTypes);
 }
 
 hid_t type_in_memory(const Volume& volume) {

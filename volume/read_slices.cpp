@@ -77,6 +77,7 @@ std::vector<fs::path> slice_files(const fs::path& folder) {
 Volume read_slices(const fs::path& folder, const ReadOptions& options) {
   const auto slices = slices_of(folder);
   Volume volume;
+  Stored first{};
   Progress progress("reading slices", static_cast<double>(slices.size()));
   for (std::size_t k = 0; k < slices.size(); ++k) {
     stop_if_interrupted();
@@ -85,19 +86,20 @@ Volume read_slices(const fs::path& folder, const ReadOptions& options) {
     read_header(*io, path);
     if (io->GetNumberOfDimensions() > 2 && io->GetDimensions(2) > 1)
       bad_input("{}: found {} pages in one slice, expected one", path.string(), io->GetDimensions(2));
-    const auto pixels = pixels_of(io->GetComponentType(), path);
+    const Stored type = picture_type(*io, path);
     if (k == 0) {
+      first = type;
       volume.size = {io->GetDimensions(0), io->GetDimensions(1), slices.size()};
-      volume.pixels = pixels;
+      volume.pixels = pixels_of(type);
       allocate(volume, path, slices.size() * fs::file_size(path));
     }
     if (io->GetDimensions(0) != volume.size[0] || io->GetDimensions(1) != volume.size[1])
       bad_input("{}: found a slice of {} x {}, expected {} x {} as the first", path.string(),
                 io->GetDimensions(0), io->GetDimensions(1), volume.size[0], volume.size[1]);
-    if (pixels.index() != volume.pixels.index())
+    if (type != first)
       bad_input("{}: found another pixel type, expected {} as in the first slice", path.string(),
                 pixel_type(volume));
-    read_pixels(*io, path, bytes(volume) + k * volume.size[0] * volume.size[1] * bytes_per_voxel(volume));
+    read_pixels(*io, path, volume, k * volume.size[0] * volume.size[1]);
     progress.update(static_cast<double>(k + 1));
   }
   place(volume, nullptr, folder, options);

@@ -39,6 +39,13 @@ std::span<const std::byte> stored_in(const VoxelHeader& header, const fs::path& 
   return rest;
 }
 
+void swap_bytes(Volume& volume) {
+  const std::size_t width = bytes_per_voxel(volume);
+  char* first = bytes(volume);
+  for (std::size_t k = 0; k < volume.voxels(); ++k) std::reverse(first + k * width, first + (k + 1) * width);
+}
+
+/// Voxels that a file holds deflated, as they are stored.
 void inflate_voxels(const VoxelHeader& header, const fs::path& path, std::span<const std::byte> stored,
                     Volume& volume) {
   constexpr std::uint64_t much = 1 << 26,
@@ -48,10 +55,16 @@ void inflate_voxels(const VoxelHeader& header, const fs::path& path, std::span<c
     if (const std::uint64_t found = inflated_size(stored, expected); found != expected)
       wrong_amount(path, found, expected, " once inflated");
   allocate(volume, path, stored.size());
-  const std::uint64_t found =
-      inflate_into(stored, {reinterpret_cast<std::byte*>(bytes(volume)), static_cast<std::size_t>(expected)});
+  std::vector<std::byte> numbers(is_kept(header.type) ? 0 : expected);
+  const std::uint64_t found = inflate_into(
+      stored, is_kept(header.type) ? std::span(reinterpret_cast<std::byte*>(bytes(volume)), expected)
+                                   : std::span(numbers));
   if (found != expected)
     wrong_amount(path, found, expected, found > expected ? " or more once inflated" : " once inflated");
+  if (!is_kept(header.type))
+    convert(numbers, header.type, header.big_endian, volume, 0);
+  else if (header.big_endian)
+    swap_bytes(volume);
 }
 
 /// Whole numbers or decimal ones, parted by white space.
@@ -79,15 +92,9 @@ void parse_voxels(const fs::path& path, std::span<const std::byte> stored, Volum
       volume.pixels);
 }
 
-void swap_bytes(Volume& volume) {
-  const std::size_t width = bytes_per_voxel(volume);
-  char* first = bytes(volume);
-  for (std::size_t k = 0; k < volume.voxels(); ++k) std::reverse(first + k * width, first + (k + 1) * width);
-}
-
 /// Room for all voxels, once the files are seen to be large enough for them.
 void make_room(const VoxelHeader& header, const fs::path& path, Volume& volume) {
-  const std::uint64_t width = bytes_per_voxel(volume), each = header.bytes_per_file();
+  const std::uint64_t width = width_of(header.type), each = header.bytes_per_file();
   const std::uint64_t least = header.encoding == Encoding::text ? 2 * (each / width) - 1 : each;
   std::uintmax_t there = 0;
   for (const auto& file : header.files) {
@@ -102,12 +109,12 @@ void make_room(const VoxelHeader& header, const fs::path& path, Volume& volume) 
 }  // namespace
 
 std::uint64_t VoxelHeader::bytes_per_file() const {
-  const std::size_t width = std::visit([](const auto& own) { return sizeof(own[0]); }, pixels);
-  return std::uint64_t{width} * size[0] * size[1] * size[2] / files.size();
+  return std::uint64_t{width_of(type)} * size[0] * size[1] * size[2] / files.size();
 }
 
 void read_voxels(const VoxelHeader& header, const fs::path& path, Volume& volume) {
-  if (header.encoding == Encoding::raw && header.files.size() == 1 && !header.big_endian) {
+  if (header.encoding == Encoding::raw && header.files.size() == 1 && !header.big_endian &&
+      is_kept(header.type)) {
     volume.file = std::make_shared<MappedFile>(header.files[0]);
     const auto stored = stored_in(header, header.files[0], *volume.file);
     volume.first_byte = static_cast<std::size_t>(stored.data() - volume.file->data());
@@ -116,26 +123,25 @@ void read_voxels(const VoxelHeader& header, const fs::path& path, Volume& volume
   if (header.encoding == Encoding::deflated) {
     const MappedFile file(header.files[0]);
     inflate_voxels(header, path, stored_in(header, header.files[0], file), volume);
-  } else {
-    make_room(header, path, volume);
-    const std::uint64_t width = bytes_per_voxel(volume), each = header.bytes_per_file();
-    for (std::size_t k = 0; k < header.files.size(); ++k) {
-      stop_if_interrupted();
-      const MappedFile file(header.files[k]);
-      const auto stored = stored_in(header, header.files[k], file);
-      if (header.encoding == Encoding::text)
-        parse_voxels(header.files[k], stored, volume, k * each / width, each / width);
-      else
-        std::memcpy(bytes(volume) + k * each, stored.data(), each);
-    }
+    return;
   }
-  if (header.big_endian && header.encoding != Encoding::text) swap_bytes(volume);
+  make_room(header, path, volume);
+  const std::uint64_t each = header.bytes_per_file() / width_of(header.type);
+  for (std::size_t k = 0; k < header.files.size(); ++k) {
+    stop_if_interrupted();
+    const MappedFile file(header.files[k]);
+    const auto stored = stored_in(header, header.files[k], file);
+    if (header.encoding == Encoding::text)
+      parse_voxels(header.files[k], stored, volume, k * each, each);
+    else
+      convert(stored, header.type, header.big_endian, volume, k * each);
+  }
 }
 
 Volume read_with_header(const VoxelHeader& header, const fs::path& path, const ReadOptions& options) {
   Volume volume;
   volume.size = header.size;
-  volume.pixels = header.pixels;
+  volume.pixels = pixels_of(header.type);
   const auto edges = place(volume, &header.place, path, options);
   read_voxels(header, path, volume);
   return made_cubic(std::move(volume), edges, path);

@@ -3,7 +3,6 @@
 #include <blosc.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "base/error.h"
 #include "base/inflate.h"
@@ -71,51 +70,19 @@ std::span<const std::byte> inflated(const ZarrArray& zarr, const fs::path& file,
   return zarr.codec == ZarrArray::Codec::none ? stored : std::span<const std::byte>(room);
 }
 
-template <typename T>
-T number_at(const std::byte* place, bool big_endian) {
-  std::array<std::byte, sizeof(T)> bytes;
-  std::memcpy(bytes.data(), place, sizeof(T));
-  if (big_endian) std::reverse(bytes.begin(), bytes.end());
-  return std::bit_cast<T>(bytes);
-}
-
 /// Copies what a chunk has of the volume; beyond the volume's ends it is padded.
-template <typename From, typename To>
-void copy_chunk(const ZarrArray& zarr, const Place& at, std::span<const std::byte> numbers,
-                const Volume& volume, std::vector<To>& pixels) {
+void copy_chunk(const ZarrArray& zarr, const Place& at, std::span<const std::byte> numbers, Volume& volume) {
   Place first, count;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     first[axis] = at[axis] * zarr.chunk[axis];
     count[axis] = std::min(zarr.chunk[axis], zarr.size[axis] - first[axis]);
   }
+  const std::size_t width = width_of(zarr.type);
   for (std::size_t z = 0; z < count[2]; ++z)
-    for (std::size_t y = 0; y < count[1]; ++y) {
-      const std::byte* from = numbers.data() + (z * zarr.chunk[1] + y) * zarr.chunk[0] * sizeof(From);
-      To* to = pixels.data() + ((first[2] + z) * volume.size[1] + first[1] + y) * volume.size[0] + first[0];
-      for (std::size_t x = 0; x < count[0]; ++x)
-        to[x] = static_cast<To>(number_at<From>(from + x * sizeof(From), zarr.big_endian));
-    }
-}
-
-void copy_chunk(const ZarrArray& zarr, const Place& at, std::span<const std::byte> numbers, Volume& volume) {
-  std::visit(
-      [&]<typename T>(std::vector<T>& pixels) {
-        if constexpr (std::is_same_v<T, float>) {
-          if (zarr.kind == 'i' && zarr.width == 1)
-            return copy_chunk<std::int8_t>(zarr, at, numbers, volume, pixels);
-          if (zarr.kind == 'i') return copy_chunk<std::int16_t>(zarr, at, numbers, volume, pixels);
-          if (zarr.width == 8) return copy_chunk<double>(zarr, at, numbers, volume, pixels);
-        }
-        copy_chunk<T>(zarr, at, numbers, volume, pixels);
-      },
-      volume.pixels);
-}
-
-Volume::Pixels pixels_for(const ZarrArray& zarr) {
-  if (zarr.kind != 'u') return std::vector<float>();
-  if (zarr.width == 1) return std::vector<std::uint8_t>();
-  if (zarr.width == 2) return std::vector<std::uint16_t>();
-  return std::vector<std::uint32_t>();
+    for (std::size_t y = 0; y < count[1]; ++y)
+      convert(numbers.subspan((z * zarr.chunk[1] + y) * zarr.chunk[0] * width, count[0] * width), zarr.type,
+              zarr.big_endian, volume,
+              ((first[2] + z) * volume.size[1] + first[1] + y) * volume.size[0] + first[0]);
 }
 
 /// All chunks with the same z, by as many threads as there are.
@@ -143,7 +110,7 @@ Volume read_zarr(const fs::path& folder, const ReadOptions& options) {
   const ZarrArray zarr = read_zarr_metadata(folder);
   Volume volume;
   volume.size = zarr.size;
-  volume.pixels = pixels_for(zarr);
+  volume.pixels = pixels_of(zarr.type);
   const auto edges = place(volume, zarr.place ? &*zarr.place : nullptr, folder, options);
   std::uintmax_t there = 0;
   for_each_chunk(zarr, [&](const Place& at) { there += bytes_behind(zarr, zarr.chunk_file(at)); });

@@ -16,11 +16,11 @@ Volume read_pages(const fs::path& path, const ReadOptions& options) {
   if (io->GetNumberOfDimensions() != 3)
     bad_input("{}: found an image of {} dimensions, expected 3", path.string(), io->GetNumberOfDimensions());
   Volume volume;
-  volume.pixels = pixels_of(io->GetComponentType(), path);
+  volume.pixels = pixels_of(picture_type(*io, path));
   for (unsigned axis = 0; axis < 3; ++axis) volume.size[axis] = io->GetDimensions(axis);
   place(volume, nullptr, path, options);
   allocate(volume, path, fs::file_size(path));
-  read_pixels(*io, path, bytes(volume));
+  read_pixels(*io, path, volume, 0);
   return volume;
 }
 

@@ -72,7 +72,7 @@ std::string pixel_type(const Volume& volume);
 struct ReadOptions {
   std::optional<double> spacing;                       ///< m; overrides the file's
   std::optional<std::array<std::size_t, 3>> raw_size;  ///< of a headerless file
-  std::string raw_type;  ///< of a headerless file: uint8, uint16 or float, little endian
+  std::string raw_type;  ///< of a headerless file, little endian: uint8, int16, float, ...
 };
 
 /// Reads a volume of any known format (volume/format.h): MetaImage, NRRD, multi-page TIFF, a folder of TIFF

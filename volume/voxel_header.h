@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "volume/pixels.h"
 #include "volume/volume.h"
 
 namespace pendular {
@@ -23,7 +24,7 @@ struct VoxelHeader {
   enum class Encoding { raw, deflated, text };
 
   std::array<std::size_t, 3> size{};
-  Volume::Pixels pixels;  ///< none, of the voxels' type
+  Stored type = Stored::uint8;
   Placement place;
   Encoding encoding = Encoding::raw;
   bool big_endian = false;
@@ -42,8 +43,8 @@ struct VoxelHeader {
 VoxelHeader read_meta_header(const fs::path& path);
 VoxelHeader read_nrrd_header(const fs::path& path);
 
-/// The voxels; `volume` has their size and type. Plain ones of a single file stay there. BadInput where a
-/// file does not hold exactly what the header says.
+/// The voxels; `volume` has their size and the type they become. Plain ones of a single file stay there.
+/// BadInput where a file does not hold exactly what the header says.
 void read_voxels(const VoxelHeader& header, const fs::path& path, Volume& volume);
 
 /// The volume that a header describes, on cubic voxels.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -47,7 +48,7 @@ void read_shape(const json& array, const fs::path& file, ZarrArray& zarr) {
     zarr.size[axis] = shape[shape.size() - 1 - axis];
     zarr.chunk[axis] = chunks[shape.size() - 1 - axis];
   }
-  double bytes = static_cast<double>(zarr.chunk_leading) * static_cast<double>(zarr.width);
+  double bytes = static_cast<double>(zarr.chunk_leading) * static_cast<double>(width_of(zarr.type));
   for (const std::size_t n : zarr.chunk) bytes *= static_cast<double>(n);
   constexpr double most = 2147483647.0;  // what a codec takes
   if (bytes > most)
@@ -57,12 +58,16 @@ void read_shape(const json& array, const fs::path& file, ZarrArray& zarr) {
 void read_type(const json& array, const fs::path& file, ZarrArray& zarr) {
   const json type = array.value("dtype", json());
   const std::string word = type.is_string() ? type.get<std::string>() : type.dump();
-  constexpr std::array<const char*, 7> known = {"u1", "u2", "u4", "i1", "i2", "f4", "f8"};
-  const bool is_known = word.size() == 3 && std::string("<>|").find(word[0]) != std::string::npos &&
-                        std::find(known.begin(), known.end(), word.substr(1)) != known.end();
-  if (!is_known) bad_input("{}: dtype: found {}, expected u1, u2, u4, i1, i2, f4 or f8", file.string(), word);
-  zarr.kind = word[1];
-  zarr.width = static_cast<std::size_t>(word[2] - '0');
+  static const std::map<std::string, Stored> known = {
+      {"u1", Stored::uint8},   {"u2", Stored::uint16}, {"u4", Stored::uint32}, {"u8", Stored::uint64},
+      {"i1", Stored::int8},    {"i2", Stored::int16},  {"i4", Stored::int32},  {"i8", Stored::int64},
+      {"f4", Stored::float32}, {"f8", Stored::float64}};
+  const auto found = word.size() == 3 && std::string("<>|").find(word[0]) != std::string::npos
+                         ? known.find(word.substr(1))
+                         : known.end();
+  if (found == known.end())
+    bad_input("{}: dtype: found {}, expected u1, u2, u4, u8, i1, i2, i4, i8, f4 or f8", file.string(), word);
+  zarr.type = found->second;
   zarr.big_endian = word[0] == '>';
 }
 

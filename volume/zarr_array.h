@@ -18,14 +18,13 @@ struct ZarrArray {
   std::array<std::size_t, 3> size{}, chunk{};  ///< along x, y, z
   std::size_t leading = 0;                     ///< axes of length 1 before z
   std::size_t chunk_leading = 1;               ///< their chunks' lengths, multiplied
-  char kind = 'u';                             ///< u, i or f
-  std::size_t width = 1;                       ///< bytes of a number
+  Stored type = Stored::uint8;
   bool big_endian = false;
   Codec codec = Codec::none;
   char separator = '.';
   std::optional<Placement> place;
 
-  std::size_t chunk_bytes() const { return chunk_leading * chunk[0] * chunk[1] * chunk[2] * width; }
+  std::size_t chunk_bytes() const { return chunk_leading * chunk[0] * chunk[1] * chunk[2] * width_of(type); }
   fs::path chunk_file(const std::array<std::size_t, 3>& at) const;  ///< by its number along x, y, z
 };
 

@@ -117,7 +117,8 @@ TEST(Hdf5, ADatasetComesBackHoweverItIsLaidOut) {
   const ScratchFolder scratch;
   for (const auto& [type, kind] : {std::pair{H5T_STD_U16LE, "uint16"}, std::pair{H5T_STD_U16BE, "uint16"},
                                    std::pair{H5T_STD_I16LE, "float"}, std::pair{H5T_IEEE_F32BE, "float"},
-                                   std::pair{H5T_IEEE_F64LE, "float"}, std::pair{H5T_STD_U32LE, "uint32"}})
+                                   std::pair{H5T_IEEE_F64LE, "float"}, std::pair{H5T_STD_U32LE, "uint32"},
+                                   std::pair{H5T_STD_I64LE, "float"}})
     for (const std::vector<hsize_t>& chunk : {std::vector<hsize_t>{}, {2, 4, 3}, {5, 6, 7}})
       for (const bool deflated : {false, true}) {
         if (deflated && chunk.empty()) continue;
@@ -209,7 +210,6 @@ TEST(Hdf5, WhatIsWrongIsSaidInOneLine) {
     file.group("/entry");
     file.dataset("/entry/flat", {6, 7}, H5T_STD_U16LE, {});
     file.dataset("/entry/four", {2, 3, 3, 3}, H5T_STD_U16LE, std::vector<std::uint16_t>(54, 1));
-    file.dataset("/entry/wide", kZyx, H5T_STD_I64LE, ramp());
     file.dataset("/entry/part", kZyx, H5T_STD_U16LE, {}, {2, 6, 7});
     file.first_slab("/entry/part", 2);
     file.dataset("/entry/none", kZyx, H5T_STD_U16LE, {});
@@ -224,7 +224,6 @@ TEST(Hdf5, WhatIsWrongIsSaidInOneLine) {
   expect("a.h5:/entry", "found no dataset /entry,");
   expect("a.h5:/entry/flat", "found dimensions (6, 7), expected three");
   expect("a.h5:/entry/four", "found dimensions (2, 3, 3, 3), expected three");
-  expect("a.h5:/entry/wide", "found integers of 8 bytes");
   expect("a.h5:/entry/text", "expected three");
   expect("a.h5:/entry/part", "found 1 chunks, expected 3: the dataset is incomplete");
   expect("a.h5:/entry/none", "found no voxels written");

@@ -56,6 +56,69 @@ TEST(Volume, MetaImageComesBackAsItWas) {
   }
 }
 
+std::string deflated(const std::string& bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string out(size, '\0');
+  compress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+           bytes.size());
+  return out.substr(0, size);
+}
+
+/// Bytes of -3, -2, ... as numbers of this type.
+template <typename T>
+std::string numbers(bool big_endian) {
+  std::string bytes;
+  for (int k = 0; k < 60; ++k) {
+    const auto number = std::bit_cast<std::array<char, sizeof(T)>>(static_cast<T>(k - 3));
+    bytes +=
+        big_endian ? std::string(number.rbegin(), number.rend()) : std::string(number.begin(), number.end());
+  }
+  return bytes;
+}
+
+void expect_numbers(const Volume& volume) {
+  ASSERT_EQ(pixel_type(volume), "float");
+  with_pixels(volume, [](auto pixels) {
+    for (std::size_t k = 0; k < pixels.size(); ++k)
+      EXPECT_EQ(static_cast<double>(pixels[k]), static_cast<double>(k) - 3.0);
+  });
+}
+
+TEST(Volume, NumbersWithASignAndDoubleBecomeFloat) {
+  const ScratchFolder folder;
+  struct Type {
+    const char *meta, *nrrd, *raw;
+    std::string little, big;
+  };
+  const auto type = [&]<typename T>(T, const char* meta, const char* nrrd, const char* raw) {
+    return Type{meta, nrrd, raw, numbers<T>(false), numbers<T>(true)};
+  };
+  for (const Type& t : {type(std::int8_t{}, "MET_CHAR", "signed char", "int8"),
+                        type(std::int16_t{}, "MET_SHORT", "short int", "int16"),
+                        type(std::int32_t{}, "MET_INT", "int32", "int32"),
+                        type(std::int64_t{}, "MET_LONG_LONG", "longlong int", "int64"),
+                        type(double{}, "MET_DOUBLE", "double", "double")}) {
+    write_text(folder / "a.raw", t.little);
+    expect_numbers(read_volume(folder / "a.raw", {3e-6, {{5, 4, 3}}, t.raw}));
+    for (const bool big : {false, true}) {
+      const std::string& data = big ? t.big : t.little;
+      write_text(folder / "a.mha", fmt::format("NDims = 3\nDimSize = 5 4 3\nElementSpacing = 2 2 2\n"
+                                               "ElementType = {}\nBinaryData = True\n"
+                                               "BinaryDataByteOrderMSB = {}\nElementDataFile = LOCAL\n",
+                                               t.meta, big ? "True" : "False") +
+                                       data);
+      expect_numbers(read_volume(folder / "a.mha"));
+      const std::string nrrd =
+          fmt::format("NRRD0004\ntype: {}\ndimension: 3\nsizes: 5 4 3\nspacings: 2 2 2\nendian: {}\n", t.nrrd,
+                      big ? "big" : "little");
+      write_text(folder / "a.nrrd", nrrd + "encoding: raw\n\n" + data);
+      expect_numbers(read_volume(folder / "a.nrrd"));
+      write_text(folder / "a.nrrd", nrrd + "encoding: gzip\n\n" + deflated(data));
+      expect_numbers(read_volume(folder / "a.nrrd"));
+    }
+  }
+}
+
 TEST(Volume, TiffComesBackAsItWas) {
   const ScratchFolder folder;
   const Volume volume = ramp();
@@ -237,14 +300,6 @@ TEST(Volume, NrrdNamesItsUnit) {
   EXPECT_NE(error_of(folder / "short.nrrd"), "");
 }
 
-std::string deflated(const std::string& bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::string out(size, '\0');
-  compress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-           bytes.size());
-  return out.substr(0, size);
-}
-
 TEST(Volume, CompressedAndWrittenOutVoxelsAreTheSame) {
   const ScratchFolder folder;
   const Volume volume = ramp();
@@ -325,7 +380,8 @@ TEST(Volume, BadInputIsOneLine) {
        "found 100 bytes of voxels, expected 120"},
       {"lying.mha", header("5 4 4", "MET_USHORT", "2 2 2") + data, "found 120 bytes of voxels, expected 160"},
       {"huge.mha", header("100000 100000 100000", "MET_USHORT", "2 2 2") + data, "found 120 bytes"},
-      {"signed.mha", header("5 4 3", "MET_SHORT", "2 2 2") + data, "found pixel type short"},
+      {"wide.mha", header("5 4 3", "MET_LONG_DOUBLE", "2 2 2") + data, "found pixel type long_double"},
+      {"bare.mha", header("5 4 3", "USHORT", "2 2 2") + data, "found pixel type ushort"},
       {"flat.mha", header("5 4 3", "MET_USHORT", "2 2 2") + std::string(120, '\1'),
        "found one grey value throughout"},
       {"slab.mha", header("5 4 3", "MET_USHORT", "2 2 25") + data, "within a factor of 8"},

@@ -35,6 +35,7 @@ std::string number(const std::string& dtype, double value) {
   if (kind == "u2") return bytes_of<std::uint16_t>(value, big);
   if (kind == "u4") return bytes_of<std::uint32_t>(value, big);
   if (kind == "i2") return bytes_of<std::int16_t>(value, big);
+  if (kind == "i8") return bytes_of<std::int64_t>(value, big);
   if (kind == "f4") return bytes_of<float>(value, big);
   return bytes_of<double>(value, big);
 }
@@ -109,7 +110,8 @@ TEST(Zarr, AnArrayComesBackInEveryTypeAndCodec) {
   const ScratchFolder scratch;
   for (const auto& [dtype, kind] :
        {std::pair{"<u2", "uint16"}, std::pair{">u2", "uint16"}, std::pair{"<u4", "uint32"},
-        std::pair{"<i2", "float"}, std::pair{"<f4", "float"}, std::pair{">f8", "float"}})
+        std::pair{"<i2", "float"}, std::pair{"<f4", "float"}, std::pair{">f8", "float"},
+        std::pair{"<i8", "float"}})
     for (const json& codec : {json(nullptr), kZlib, kBlosc, json{{"id", "blosc"}, {"cname", "lz4"}}})
       for (const char* separator : {".", "/"}) {
         fs::remove_all(scratch / "a");
