@@ -15,6 +15,7 @@ using Eigen::Index;
 
 constexpr double kWantedError = 5e-4;
 constexpr double kSame = 1e-9, kClose = 1e-3;  // of logarithms: rounding, and too close for points
+constexpr double kNarrow = 0.3;                // of a logarithm: bridges of one gap on beads that differ
 
 /// Chebyshev points of the first kind of a range.
 Eigen::VectorXd chebyshev_points(int size, double low, double high) {
@@ -42,10 +43,15 @@ double ln_gap_of(const BridgeBody& body) {
 
 }  // namespace
 
-/// Points along ln d/D and ln δ0/D.
+/// Points along ln d/D and ln δ0/D, and at most along either where its range is narrow.
 struct StiffnessTable::Points {
-  int neck, gap;
+  int neck, gap, narrow;
 };
+
+int StiffnessTable::Range::points(int of_many, int of_narrow) const {
+  if (high <= low) return 1;
+  return high - low < kNarrow ? std::min(of_many, of_narrow) : of_many;
+}
 
 bool gap_is_raised(const BridgeBody& body) {
   return body.gap < kSmallestGapRatio * common_diameter(body);
@@ -61,7 +67,7 @@ StiffnessTable::Four StiffnessTable::Layer::at(double ln_neck, double ln_gap) co
 
 template <typename Function>
 StiffnessTable::Layer StiffnessTable::fill(const Points& points, const Function& function) {
-  const int necks = neck_.points(points.neck), gaps = gap_.points(points.gap);
+  const int necks = neck_.points(points.neck, points.narrow), gaps = gap_.points(points.gap, points.narrow);
   Layer layer{
       chebyshev_points(necks, neck_.low, neck_.high), chebyshev_points(gaps, gap_.low, gap_.high), {}};
   for (auto& matrix : layer.values) matrix.resize(necks, gaps);
@@ -116,7 +122,7 @@ StiffnessTable::Four StiffnessTable::interpolate(double ln_neck, double ln_gap, 
 double StiffnessTable::measure() const {
   // Between Chebyshev points and at the ends of a range the error of a polynomial has its extrema.
   constexpr int kSide = 4;
-  const int necks = neck_.points(kSide), gaps = gap_.points(kSide);
+  const int necks = neck_.points(kSide, kSide), gaps = gap_.points(kSide, kSide);
   const auto place = [&](const Range& range, Index points, Index k) {
     const Index extremum = k * points / (kSide - 1);
     return 0.5 * (range.low + range.high) -
@@ -137,8 +143,8 @@ double StiffnessTable::measure() const {
 
 StiffnessTable::StiffnessTable(std::span<const BridgeBody> bodies, const Polymer& polymer)
     : polymer_(polymer) {
-  constexpr std::array kPoints = {Points{7, 12}, Points{10, 16}};  // tried in turn
-  constexpr Points kPointsOfChange = {4, 4};
+  constexpr std::array kPoints = {Points{7, 12, 4}, Points{10, 16, 16}};  // tried in turn
+  constexpr Points kPointsOfChange = {4, 4, 4};
   if (bodies.empty()) return;
   find_range(bodies);
   if (asymmetry_ > 0.0)

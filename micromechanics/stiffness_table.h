@@ -50,7 +50,7 @@ class StiffnessTable {
   };
   struct Range {
     double low, high;
-    int points(int of_many) const { return high > low ? of_many : 1; }
+    int points(int of_many, int of_narrow) const;
   };
   struct Points;
   template <typename Function>
