@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/eigensystem.h"
 #include "base/parallel.h"
 #include "dem_core/linear/joints.h"
 #include "dem_core/linear/stiffness_sensitivity.h"
@@ -135,9 +136,31 @@ Eigen::VectorXd rows_of(const std::vector<Vec3>& field) {
   return rows;
 }
 
-/// Logarithm of the determinant of a positive matrix.
-double log_determinant(const Eigen::LLT<Eigen::MatrixXd>& llt) {
-  return 2.0 * Eigen::MatrixXd(llt.matrixL()).diagonal().array().log().sum();
+/// The most probable numbers at one size of the prior, along the axes in which they are independent.
+struct SizedFit {
+  Eigen::VectorXd numbers;
+  double scale = 1.0;  ///< of the variance
+  double evidence = -std::numeric_limits<double>::infinity();
+};
+
+/// `information`: that of the data on each number, at the stated variance; `load`: what they say of it times
+/// that; `square`: the weighted square of the difference, of so many rows.
+SizedFit sized_fit(const Eigen::ArrayXd& information, const Eigen::ArrayXd& load, double square, double rows,
+                   double size) {
+  const double precision = 1.0 / (size * size);
+  const auto misfit = [&](const Eigen::ArrayXd& x) {
+    return square - 2.0 * (x * load).sum() + (x.square() * information).sum();
+  };
+  const Eigen::ArrayXd whole = information + precision;
+  const double dof = rows - (information / whole).sum();
+  SizedFit fit;
+  fit.scale = std::max(1.0, misfit(load / whole) / dof);
+  const Eigen::ArrayXd scaled = information / fit.scale + precision;
+  const Eigen::ArrayXd x = load / fit.scale / scaled;
+  fit.evidence = -0.5 * (misfit(x) / fit.scale + precision * x.square().sum() + rows * std::log(fit.scale) +
+                         (scaled / precision).log().sum());
+  fit.numbers = x;
+  return fit;
 }
 
 /// Standard errors of the beads' changes.
@@ -147,43 +170,47 @@ Eigen::VectorXd errors_of(const Eigen::MatrixXd& shares, const RegionFit& fit) {
 
 }  // namespace
 
-RegionFit fit_regions(const Eigen::MatrixXd& sensitivity, const Eigen::MatrixXd& prior,
-                      const Eigen::VectorXd& variance, const Eigen::VectorXd& difference) {
-  const Eigen::Index rows = difference.size(), beads = rows / 3;
-  const Eigen::MatrixXd precision = prior.inverse();
-  const double prior_log = log_determinant(prior.llt()), regions = static_cast<double>(prior.rows());
+Regions regions_of(const Eigen::MatrixXd& sensitivity, const Eigen::MatrixXd& prior) {
+  Regions regions;
+  regions.root = prior.llt().matrixL();
+  regions.sensitivity = sensitivity * regions.root;
+  return regions;
+}
+
+RegionFit fit_regions(const Regions& regions, const Eigen::VectorXd& variance,
+                      const Eigen::VectorXd& difference) {
+  const Eigen::Index rows = difference.size(), beads = rows / 3, count = regions.sensitivity.cols();
   Eigen::VectorXd weight = variance.cwiseInverse();
-  RegionFit best;
+  Eigen::MatrixXd axes;
+  Eigen::ArrayXd information;
+  SizedFit best;
+  double size = 0.0;
   for (int round = 0; round < kRounds; ++round) {
-    const Eigen::MatrixXd h = sensitivity.transpose() * weight.asDiagonal() * sensitivity;
-    const Eigen::VectorXd load = sensitivity.transpose() * weight.cwiseProduct(difference);
-    double most = -std::numeric_limits<double>::infinity();
-    for (double size : kSizes) {
-      const Eigen::MatrixXd p = precision / (size * size);
-      const Eigen::LLT<Eigen::MatrixXd> first(h + p);
-      Eigen::VectorXd change = first.solve(load);
-      const double dof = static_cast<double>(rows) - first.solve(h).trace();
-      const auto misfit = [&] { return (difference - sensitivity * change).cwiseAbs2().dot(weight); };
-      const double scale = std::max(1.0, misfit() / dof);
-      const Eigen::LLT<Eigen::MatrixXd> llt(h / scale + p);
-      change = llt.solve(load / scale);
-      const double evidence = -0.5 * (misfit() / scale + change.dot(p * change)) -
-                              0.5 * static_cast<double>(rows) * std::log(scale) -
-                              0.5 * (log_determinant(llt) + prior_log + 2.0 * regions * std::log(size));
-      if (evidence <= most) continue;
-      most = evidence;
-      const Eigen::MatrixXd inverse = llt.solve(Eigen::MatrixXd::Identity(h.rows(), h.cols()));
-      best = {change, inverse * (h / scale) * inverse, std::sqrt(scale)};
-    }
-    const Eigen::VectorXd left = difference - sensitivity * best.change;
+    const Eigen::MatrixXd weighted = weight.cwiseSqrt().asDiagonal() * regions.sensitivity;
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count, count);
+    all.selfadjointView<Eigen::Lower>().rankUpdate(weighted.transpose());
+    const auto [values, vectors] = eigensystem(all);
+    axes = vectors, information = values.array().max(0.0);
+    const Eigen::ArrayXd load =
+        axes.transpose() * (regions.sensitivity.transpose() * weight.cwiseProduct(difference));
+    const double square = difference.cwiseAbs2().dot(weight);
+    best = {};
+    for (const double tried : kSizes)
+      if (SizedFit fit = sized_fit(information, load, square, static_cast<double>(rows), tried);
+          fit.evidence > best.evidence)
+        best = std::move(fit), size = tried;
+    const Eigen::VectorXd left = difference - regions.sensitivity * (axes * best.numbers);
     for (Eigen::Index k = 0; k < beads; ++k) {
-      double square = 0.0;
+      double of_bead = 0.0;
       for (Eigen::Index row = 3 * k; row < 3 * k + 3; ++row)
-        square += left[row] * left[row] / (variance[row] * best.left * best.left);
-      weight.segment<3>(3 * k) = (kDof + 3.0) / (kDof + square) * variance.segment<3>(3 * k).cwiseInverse();
+        of_bead += left[row] * left[row] / (variance[row] * best.scale);
+      weight.segment<3>(3 * k) = (kDof + 3.0) / (kDof + of_bead) * variance.segment<3>(3 * k).cwiseInverse();
     }
   }
-  return best;
+  const Eigen::ArrayXd scaled = information / best.scale;
+  const Eigen::MatrixXd spread =
+      regions.root * axes * (scaled.sqrt() / (scaled + 1.0 / (size * size))).matrix().asDiagonal();
+  return {regions.root * (axes * best.numbers), spread * spread.transpose(), std::sqrt(best.scale)};
 }
 
 PlaceStiffness place_stiffness(const dem_core::Simulation& specimen, double strain,
@@ -224,14 +251,15 @@ PlaceStiffness place_stiffness(const dem_core::Simulation& specimen, double stra
   for (std::size_t k = 0; k < bead.size(); ++k)
     variance.segment<3>(static_cast<Eigen::Index>(3 * k))
         .setConstant(beads.sigma * beads.sigma + of_members[k]);
-  const Eigen::MatrixXd prior = prior_of(beads, centres), shares = shares_of(beads.rest, beads, centres);
-  const RegionFit fit = fit_regions(sensitivity, prior, variance, rows_of(difference));
+  const Eigen::MatrixXd shares = shares_of(beads.rest, beads, centres);
+  const Regions regions = regions_of(sensitivity, prior_of(beads, centres));
+  const RegionFit fit = fit_regions(regions, variance, rows_of(difference));
   // Members scatter alike from bead to bead, which single beads' variances do not say: what members
   // themselves come to, taken for the experiment, scales the errors.
   const auto nulls = null_differences(beads, 1);
   std::vector<double> maxima(nulls.size()), squares(nulls.size());
   for_blocks(nulls.size(), 1, [&](std::size_t k, std::size_t) {
-    const RegionFit of_null = fit_regions(sensitivity, prior, variance, rows_of(nulls[k]));
+    const RegionFit of_null = fit_regions(regions, variance, rows_of(nulls[k]));
     const Eigen::VectorXd z = (shares * of_null.change).cwiseQuotient(errors_of(shares, of_null));
     maxima[k] = z.cwiseAbs().maxCoeff();
     squares[k] = z.squaredNorm() / static_cast<double>(z.size());

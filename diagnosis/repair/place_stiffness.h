@@ -31,14 +31,21 @@ PlaceStiffness place_stiffness(const dem_core::Simulation& specimen, double stra
                                const std::vector<int>& bead, const std::vector<Vec3>& simulated,
                                const MovedBeads& beads);
 
-/// Changes of stiffness in regions from a difference of fields (three rows a bead) and its variance by noise;
-/// `sensitivity`: of the difference to each change. `prior`: covariance of the changes but for its size.
+/// Changes of stiffness in regions, `root` times numbers that are independent and alike before they are seen.
+struct Regions {
+  Eigen::MatrixXd root;         ///< of the prior covariance of the changes but for its size
+  Eigen::MatrixXd sensitivity;  ///< of a difference of fields (three rows a bead) to those numbers
+};
+/// `sensitivity`: of the difference to each change; `prior`: their covariance but for its size.
+Regions regions_of(const Eigen::MatrixXd& sensitivity, const Eigen::MatrixXd& prior);
+
 struct RegionFit {
   Eigen::VectorXd change;
   Eigen::MatrixXd covariance;  ///< of `change` by noise
   double left = 1.0;           ///< rms of what no change explains, over the noise
 };
-RegionFit fit_regions(const Eigen::MatrixXd& sensitivity, const Eigen::MatrixXd& prior,
-                      const Eigen::VectorXd& variance, const Eigen::VectorXd& difference);
+/// Of a difference of fields with this variance by noise.
+RegionFit fit_regions(const Regions& regions, const Eigen::VectorXd& variance,
+                      const Eigen::VectorXd& difference);
 
 }  // namespace pendular::diagnosis

@@ -53,7 +53,7 @@ TEST(Place, ChainWithAWeakSpringIsFoundWithTheRightMagnitude) {
       sensitivity.block<3, 1>(3 * bead, static_cast<Eigen::Index>(k)) = change.segment<3>(6 * bead);
   }
   const RegionFit fit =
-      fit_regions(sensitivity, Eigen::MatrixXd::Identity(kSprings, kSprings),
+      fit_regions(regions_of(sensitivity, Eigen::MatrixXd::Identity(kSprings, kSprings)),
                   Eigen::VectorXd::Constant(difference.size(), kNoise * kNoise), difference);
   // Only ratios of springs in series show: the others share what the prior leaves of their common factor.
   double others = 0.0;
