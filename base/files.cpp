@@ -230,7 +230,18 @@ void write_text(const fs::path& path, std::string_view text) {
 std::string read_text(const fs::path& path) {
   require_readable(path);
   std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);  // of what is no file there is none
+  std::string text(error ? 4096 : static_cast<std::size_t>(size) + 1, '\0');
+  std::size_t there = 0;
+  const auto fill = [&] {
+    in.read(text.data() + there, static_cast<std::streamsize>(text.size() - there));
+    there += static_cast<std::size_t>(in.gcount());
+    return static_cast<bool>(in);
+  };
+  while (fill()) text.resize(2 * text.size());
+  text.resize(there);
+  return text;
 }
 
 void make_folder(const fs::path& path) {
