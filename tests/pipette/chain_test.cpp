@@ -137,9 +137,10 @@ Case run_case(std::uint64_t index) {
   phantom.direction = index % 2 ? Direction::tangential : Direction::normal;
   phantom.bridge_stiffness = index % 2 ? bridge.tangential : bridge.normal;
   phantom.seed = index + 1;
+  phantom.loading = 15, phantom.unloading = 13;
   phantom.drift = 1.6 * (draw(2) - 0.5);
   phantom.light = 0.2 * (draw(3) - 0.5);
-  if (draw(4) < 0.5) phantom.dropped = 5 + static_cast<int>(50.0 * draw(5));
+  if (draw(4) < 0.5) phantom.dropped = 5 + static_cast<int>(23.0 * draw(5));
   const Calibration stated = phantom_calibration(phantom);
   phantom.pipette_stiffness += stated.pipette_stiffness_sigma * random_normal(77, index);
   phantom.um_per_pixel *= 1.0 + 0.01 * random_normal(78, index);
