@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const VoxelHeader header = read_nrrd_header(path);
     Volume volume;
     volume.size = header.size;
-    volume.pixels = header.pixels;
+    volume.pixels = pixels_of(header.type);
     if (volume.voxels() < 1 << 20) read_voxels(header, path, volume);
   });
 }
