@@ -85,7 +85,8 @@ void add_warnings(Segmentation& result) {
     result.warnings.push_back(
         "polymer cannot be distinguished from its surroundings: every bridge is undetermined");
   if (!result.specimen)
-    result.warnings.push_back("no container found: porosity is that of the whole image, walls are not known");
+    result.warnings.push_back(
+        "no container found (a tube along z): porosity is that of the whole image, walls are not known");
 }
 
 /// The container's inside; where the beads end free, up to the outermost bead.
