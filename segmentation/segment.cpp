@@ -190,8 +190,8 @@ std::string words_of(const Box& box) {
 }
 
 /// Of a volume without padding, whose first slice is the `first_slice`-th of the one it was taken from.
-Segmentation segmented_finely(const Volume& volume, const SegmentOptions& options, std::size_t first_slice,
-                              std::vector<std::string> defects) {
+Segmentation segmented_unpadded(const Volume& volume, const SegmentOptions& options, std::size_t first_slice,
+                                std::vector<std::string> defects) {
   const BeadSearch search = search_with(volume, options);
   for (auto& defect : image_defects(volume, search.histogram, first_slice))
     defects.push_back(std::move(defect));
@@ -208,10 +208,10 @@ Segmentation segmented_finely(const Volume& volume, const SegmentOptions& option
 Segmentation segment(const Volume& volume, const SegmentOptions& options) {
   require_size(volume.size, "");
   const Box whole{{}, volume.size}, box = without_padding(volume);
-  if (box == whole) return segmented_finely(volume, options, 0, {});
+  if (box == whole) return segmented_unpadded(volume, options, 0, {});
   const Volume part = part_of(volume, box);
   require_size(part.size, "; " + words_of(box));
-  return segmented_finely(part, options, box.low[2], {words_of(box)});
+  return segmented_unpadded(part, options, box.low[2], {words_of(box)});
 }
 
 }  // namespace pendular::segmentation

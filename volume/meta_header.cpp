@@ -39,8 +39,6 @@ Stored type_named(const HeaderFields& fields) {
   const bool named = type.starts_with("MET_");
   if (named) type.erase(0, 4);
   std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
-  for (const char* word : {"long_long", "ulong_long"})  // as MetaIO writes them
-    if (type == word) type.erase(type.find('_'), 1);
   if (named)
     if (const auto stored = stored_named(type)) return *stored;
   bad_input("{}: found pixel type {}, expected {}", fields.where("ElementType"), type, kStoredTypes);

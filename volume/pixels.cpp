@@ -56,36 +56,23 @@ double memory() {
 }  // namespace
 
 std::optional<Stored> stored_named(const std::string& name) {
-  static const std::map<std::string, Stored> known = [] {
-    std::map<std::string, Stored> all = {{"signed char", Stored::int8},
-                                         {"char", Stored::int8},
-                                         {"float", Stored::float32},
-                                         {"double", Stored::float64}};
-    const auto add = [&](const std::string& word, Stored with_sign, Stored without) {
-      for (const char* sign : {"", "signed "})
-        for (const char* end : {"", " int"}) all[sign + word + end] = with_sign;
-      for (const char* end : {"", " int"}) all["unsigned " + word + end] = without;
-      all["u" + word] = without;
-    };
-    add("short", Stored::int16, Stored::uint16);
-    add("longlong", Stored::int64, Stored::uint64);
-    add("long long", Stored::int64, Stored::uint64);
-    all["int"] = all["signed int"] = Stored::int32;
-    all["uint"] = all["unsigned int"] = Stored::uint32;
-    all["uchar"] = all["unsigned char"] = Stored::uint8;
-    const std::pair<int, std::pair<Stored, Stored>> sized[] = {{8, {Stored::int8, Stored::uint8}},
-                                                               {16, {Stored::int16, Stored::uint16}},
-                                                               {32, {Stored::int32, Stored::uint32}},
-                                                               {64, {Stored::int64, Stored::uint64}}};
-    for (const auto& [bits, types] : sized)
-      for (const char* end : {"", "_t"}) {
-        all[fmt::format("int{}{}", bits, end)] = types.first;
-        all[fmt::format("uint{}{}", bits, end)] = types.second;
-      }
-    return all;
-  }();
-  const auto found = known.find(name);
-  return found == known.end() ? std::nullopt : std::optional(found->second);
+  static const std::map<Stored, std::vector<std::string>> names = {
+      {Stored::int8, {"char", "signed char", "int8", "int8_t"}},
+      {Stored::uint8, {"uchar", "unsigned char", "uint8", "uint8_t"}},
+      {Stored::int16, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
+      {Stored::uint16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
+      {Stored::int32, {"int", "signed int", "int32", "int32_t"}},
+      {Stored::uint32, {"uint", "unsigned int", "uint32", "uint32_t"}},
+      {Stored::int64,
+       {"longlong", "long_long", "long long", "long long int", "signed long long", "signed long long int",
+        "int64", "int64_t"}},
+      {Stored::uint64,
+       {"ulonglong", "ulong_long", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
+      {Stored::float32, {"float"}},
+      {Stored::float64, {"double"}}};
+  for (const auto& [type, words] : names)
+    if (std::find(words.begin(), words.end(), name) != words.end()) return type;
+  return std::nullopt;
 }
 
 bool is_kept(Stored type) {

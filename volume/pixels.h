@@ -12,7 +12,8 @@ enum class Stored { uint8, uint16, uint32, float32, int8, int16, int32, int64, u
 /// Of an error's line on any other type.
 inline constexpr const char* kStoredTypes = "a whole number of up to 64 bit, float or double";
 
-/// By the names that C, C++ and their libraries give it: "unsigned short", "uint16_t", "ushort", "float".
+/// By the names that NRRD and, after MET_ in capitals, MetaImage give it: "unsigned short", "ushort",
+/// "uint16_t".
 std::optional<Stored> stored_named(const std::string& name);
 bool is_kept(Stored type);
 std::size_t width_of(Stored type);  ///< bytes

@@ -39,13 +39,11 @@ std::span<const std::byte> stored_in(const VoxelHeader& header, const fs::path& 
   return rest;
 }
 
-void swap_bytes(Volume& volume) {
-  const std::size_t width = bytes_per_voxel(volume);
-  char* first = bytes(volume);
-  for (std::size_t k = 0; k < volume.voxels(); ++k) std::reverse(first + k * width, first + (k + 1) * width);
+/// Whether voxels are stored as a volume has them.
+bool as_in_memory(const VoxelHeader& header) {
+  return is_kept(header.type) && !header.big_endian;
 }
 
-/// Voxels that a file holds deflated, as they are stored.
 void inflate_voxels(const VoxelHeader& header, const fs::path& path, std::span<const std::byte> stored,
                     Volume& volume) {
   constexpr std::uint64_t much = 1 << 26,
@@ -55,16 +53,13 @@ void inflate_voxels(const VoxelHeader& header, const fs::path& path, std::span<c
     if (const std::uint64_t found = inflated_size(stored, expected); found != expected)
       wrong_amount(path, found, expected, " once inflated");
   allocate(volume, path, stored.size());
-  std::vector<std::byte> numbers(is_kept(header.type) ? 0 : expected);
+  std::vector<std::byte> numbers(as_in_memory(header) ? 0 : expected);
   const std::uint64_t found = inflate_into(
-      stored, is_kept(header.type) ? std::span(reinterpret_cast<std::byte*>(bytes(volume)), expected)
+      stored, as_in_memory(header) ? std::span(reinterpret_cast<std::byte*>(bytes(volume)), expected)
                                    : std::span(numbers));
   if (found != expected)
     wrong_amount(path, found, expected, found > expected ? " or more once inflated" : " once inflated");
-  if (!is_kept(header.type))
-    convert(numbers, header.type, header.big_endian, volume, 0);
-  else if (header.big_endian)
-    swap_bytes(volume);
+  if (!as_in_memory(header)) convert(numbers, header.type, header.big_endian, volume, 0);
 }
 
 /// Whole numbers or decimal ones, parted by white space.
@@ -113,8 +108,7 @@ std::uint64_t VoxelHeader::bytes_per_file() const {
 }
 
 void read_voxels(const VoxelHeader& header, const fs::path& path, Volume& volume) {
-  if (header.encoding == Encoding::raw && header.files.size() == 1 && !header.big_endian &&
-      is_kept(header.type)) {
+  if (header.encoding == Encoding::raw && header.files.size() == 1 && as_in_memory(header)) {
     volume.file = std::make_shared<MappedFile>(header.files[0]);
     const auto stored = stored_in(header, header.files[0], *volume.file);
     volume.first_byte = static_cast<std::size_t>(stored.data() - volume.file->data());

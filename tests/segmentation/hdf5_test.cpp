@@ -210,6 +210,7 @@ TEST(Hdf5, WhatIsWrongIsSaidInOneLine) {
     file.group("/entry");
     file.dataset("/entry/flat", {6, 7}, H5T_STD_U16LE, {});
     file.dataset("/entry/four", {2, 3, 3, 3}, H5T_STD_U16LE, std::vector<std::uint16_t>(54, 1));
+    file.dataset("/entry/wide", kZyx, H5T_NATIVE_LDOUBLE, ramp());
     file.dataset("/entry/part", kZyx, H5T_STD_U16LE, {}, {2, 6, 7});
     file.first_slab("/entry/part", 2);
     file.dataset("/entry/none", kZyx, H5T_STD_U16LE, {});
@@ -224,6 +225,7 @@ TEST(Hdf5, WhatIsWrongIsSaidInOneLine) {
   expect("a.h5:/entry", "found no dataset /entry,");
   expect("a.h5:/entry/flat", "found dimensions (6, 7), expected three");
   expect("a.h5:/entry/four", "found dimensions (2, 3, 3, 3), expected three");
+  expect("a.h5:/entry/wide", "found floats of 16 bytes");
   expect("a.h5:/entry/text", "expected three");
   expect("a.h5:/entry/part", "found 1 chunks, expected 3: the dataset is incomplete");
   expect("a.h5:/entry/none", "found no voxels written");

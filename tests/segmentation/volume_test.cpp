@@ -96,7 +96,7 @@ TEST(Volume, NumbersWithASignAndDoubleBecomeFloat) {
   for (const Type& t : {type(std::int8_t{}, "MET_CHAR", "signed char", "int8"),
                         type(std::int16_t{}, "MET_SHORT", "short int", "int16"),
                         type(std::int32_t{}, "MET_INT", "int32", "int32"),
-                        type(std::int64_t{}, "MET_LONG_LONG", "longlong int", "int64"),
+                        type(std::int64_t{}, "MET_LONG_LONG", "signed long long int", "int64"),
                         type(double{}, "MET_DOUBLE", "double", "double")}) {
     write_text(folder / "a.raw", t.little);
     expect_numbers(read_volume(folder / "a.raw", {3e-6, {{5, 4, 3}}, t.raw}));
