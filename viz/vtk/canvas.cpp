@@ -1,4 +1,4 @@
-#include "viz/canvas.h"
+#include "viz/vtk/canvas.h"
 
 #include <vtkImageData.h>
 #include <vtkUnsignedCharArray.h>
@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/own_process.h"
 
 namespace pendular::viz {
 namespace {
@@ -34,20 +33,19 @@ Image averaged(const vtkUnsignedCharArray& pixels, PictureSize size) {
 
 }  // namespace
 
-Canvas::Canvas(const Display& display, PictureSize size, double zoom)
-    : connection_(display.connect()), size_(size), zoom_(zoom > 0.0 ? zoom : size.height / 1200.0) {
-  window_->SetDisplayId(connection_.get());
+Canvas::Canvas(_XDisplay* connection, PictureSize size) : size_(size) {
+  window_->SetDisplayId(connection);
   window_->SetOffScreenRendering(1);
   window_->SetMultiSamples(0);
   window_->SetSize(size.width * kOversample, size.height * kOversample);
+  window_->SetNumberOfLayers(2);
 }
 
 int Canvas::scaled(double length) const {
-  return static_cast<int>(std::lround(length * kOversample * zoom_));
+  return static_cast<int>(std::lround(length * kOversample * size_.height / 1200.0));
 }
 
 Image Canvas::draw() {
-  const SilentStandardError silent;
   window_->Render();
   vtkNew<vtkUnsignedCharArray> pixels;
   window_->GetPixelData(0, 0, size_.width * kOversample - 1, size_.height * kOversample - 1, 0, pixels);
@@ -58,6 +56,21 @@ Image Canvas::draw() {
   if (std::all_of(image.rgb.begin(), image.rgb.end(), [](std::uint8_t v) { return v == 0; }))
     throw ComputationFailed("the X display draws no OpenGL 3.2 (unset DISPLAY to use a private Xvfb)");
   return image;
+}
+
+Page::Page(Canvas& canvas) : window_(canvas.window()) {
+  annotation->SetBackground(1.0, 1.0, 1.0);
+  annotation->SetLayer(0);
+  scene->SetBackground(1.0, 1.0, 1.0);
+  scene->SetLayer(1);
+  scene->SetViewport(0.01, 0.01, 0.79, 0.87);
+  window_->AddRenderer(annotation);
+  window_->AddRenderer(scene);
+}
+
+Page::~Page() {
+  window_->RemoveRenderer(scene);
+  window_->RemoveRenderer(annotation);
 }
 
 }  // namespace pendular::viz

@@ -1,4 +1,4 @@
-#include "viz/annotation.h"
+#include "viz/vtk/annotation.h"
 
 #include <vtkActor2D.h>
 #include <vtkCellArray.h>

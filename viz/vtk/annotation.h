@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "viz/canvas.h"
 #include "viz/colours.h"
 #include "viz/text_style.h"
+#include "viz/vtk/canvas.h"
 
 namespace pendular::viz {
 

@@ -1,9 +1,8 @@
 #pragma once
 
-// Off-screen window of the viz folder. Internal: knows VTK.
-
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
 
 #include "viz/display.h"
 #include "viz/image.h"
@@ -15,22 +14,35 @@ namespace pendular::viz {
 /// line widths) go through scaled().
 class Canvas {
  public:
-  /// `zoom`: the picture's pixels per unit of scaled(); 0: its height over 1200.
-  Canvas(const Display& display, PictureSize size, double zoom = 0.0);
+  /// On a connection that closes after it.
+  Canvas(_XDisplay* connection, PictureSize size);
 
   vtkRenderWindow* window() { return window_; }
 
-  /// Window pixels for a length that is `length` pixels in a picture 1200 pixels high (of zoom 1).
+  /// Window pixels for a length that is `length` pixels in a picture 1200 pixels high.
   int scaled(double length) const;
 
   /// Draws and reads back. ComputationFailed where OpenGL draws nothing.
   Image draw();
 
  private:
-  Display::Connection connection_;  ///< closed after the window
   PictureSize size_;
-  double zoom_;
   vtkNew<vtkRenderWindow> window_;
+};
+
+/// What a canvas shows while it lives: a scene at the left below the title, and text and colour bar behind
+/// it.
+class Page {
+ public:
+  explicit Page(Canvas& canvas);
+  ~Page();
+  Page(const Page&) = delete;
+  Page& operator=(const Page&) = delete;
+
+  vtkNew<vtkRenderer> scene, annotation;
+
+ private:
+  vtkRenderWindow* window_;
 };
 
 }  // namespace pendular::viz
