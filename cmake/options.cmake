@@ -43,6 +43,8 @@ target_compile_options(pendular_flags INTERFACE -Wall -Wextra -Wpedantic -Wshado
                        $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>
                        # Libraries are position-independent; their own calls are still inlined.
                        -fno-semantic-interposition)
+# For sources in which nothing takes long: a quarter to two fifths less to compile.
+set(PENDULAR_QUICK_TO_COMPILE $<$<CONFIG:Release>:-O1>)
 # Debian's ITK knows GCC alone and refuses other compilers: what its headers would have learnt of them.
 target_compile_definitions(pendular_flags INTERFACE $<$<CXX_COMPILER_ID:Clang>:ITK_COMPILER_DETECTION_H;
   ITK_COMPILER_CXX_STATIC_ASSERT=1;ITK_CONSTEXPR=constexpr;ITK_NOEXCEPT=noexcept>)
