@@ -116,10 +116,11 @@ void draw(const TrackOptions& options, const std::vector<Bead>& before, const st
         ShearPlane{motion.band.normal, motion.band.point, motion.band.thickness, motion.band.contrast};
   const viz::Stage stage = viz::make_stage(first, frame, result);
   const viz::Display display;
+  viz::ScenePainter painter(display);
   for (const char* name : {"displacement_cut", "shear_strain"}) {
     const viz::View& view = viz::view_named(name);
     viz::write_png(options.pictures / (std::string(name) + ".png"),
-                   viz::draw_scene(display, view, frame, stage, viz::colour_range(view, frame, stage)),
+                   painter.draw(view, frame, stage, viz::colour_range(view, frame, stage)),
                    pendular::to_json(origin).dump());
   }
 }

@@ -73,11 +73,11 @@ Film make_film(const Display& display, const View& view, const std::vector<fs::p
   make_inner_folder(folder);
   Film film;
   Progress progress("film", static_cast<double>(frames.size()));
+  ScenePainter painter(display, size);
   for (std::size_t k = 0; k < frames.size(); ++k) {
     stop_if_interrupted();
     film.pictures.push_back(folder / picture_name(k));
-    write_png(film.pictures.back(), draw_scene(display, view, read_frame(frames[k]), stage, range, size),
-              comment);
+    write_png(film.pictures.back(), painter.draw(view, read_frame(frames[k]), stage, range), comment);
     progress.update(static_cast<double>(k + 1), fmt::format("picture {} of {}", k + 1, frames.size()));
   }
   for (std::size_t k = frames.size(); fs::exists(folder / picture_name(k)); ++k) {

@@ -84,16 +84,17 @@ RenderSummary render_run(const fs::path& path, const fs::path& out, const Render
   keep("stress_strain.svg",
        "Stress over platen strain with the linear fit, the end of the linear range and the peak; bars: "
        "broken bonds.");
-  for (const View& view : chosen)
-    for (const Moment& moment : drawn) {
-      const std::string name = view.name + "_" + moment.word + ".png";
-      write_png(out / name,
-                draw_scene(display, view, moment.frame, stage, colour_range(view, moment.frame, stage),
-                           options.size),
-                comment);
-      keep(name, fmt::format("{} ({:.2f} % strain). {}", moment.caption, 100.0 * moment.frame.strain,
-                             view.caption));
-    }
+  {  // its window is closed before the film opens one
+    ScenePainter painter(display, options.size);
+    for (const View& view : chosen)
+      for (const Moment& moment : drawn) {
+        const std::string name = view.name + "_" + moment.word + ".png";
+        write_png(out / name,
+                  painter.draw(view, moment.frame, stage, colour_range(view, moment.frame, stage)), comment);
+        keep(name, fmt::format("{} ({:.2f} % strain). {}", moment.caption, 100.0 * moment.frame.strain,
+                               view.caption));
+      }
+  }
   if (options.film) {
     const View& view = view_named(options.view.empty() ? kFilmView : options.view);
     const ColourRange range = colour_range(view, drawn.back().frame, stage);

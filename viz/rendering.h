@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,12 +12,17 @@
 
 namespace pendular::viz {
 
+/// Views in a window of their own.
+struct ScenePictures {
+  virtual ~ScenePictures() = default;
+  virtual Image draw(const View& view, const Frame& frame, const Stage& stage, const ColourRange& range) = 0;
+};
+
 /// VTK's rendering takes longer to load than all else of a program that draws nothing: it is in a shared
 /// object of its own, loaded with the first picture. Windows open on the X connection given; it closes after
 /// them.
 struct Rendering {
-  Image (*draw_scene)(_XDisplay* connection, const View& view, const Frame& frame, const Stage& stage,
-                      const ColourRange& range, PictureSize size);
+  std::unique_ptr<ScenePictures> (*scenes)(_XDisplay* connection, PictureSize size);
   std::vector<Image> (*draw_bead_maps)(_XDisplay* connection, std::span<const BeadMap> maps,
                                        PictureSize size);
   bool (*write_png)(const fs::path& path, const Image& image, const std::string& comment);

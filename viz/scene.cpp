@@ -105,11 +105,16 @@ ColourRange colour_range(const View& view, const Frame& frame, const Stage& stag
   return {from_zero ? 0.0 : range.low, range.high};
 }
 
-Image draw_scene(const Display& display, const View& view, const Frame& frame, const Stage& stage,
-                 const ColourRange& range, PictureSize size) {
-  const auto connection = display.connect();
+ScenePainter::ScenePainter(const Display& display, PictureSize size) : connection_(display.connect()) {
   const SilentStandardError silent;
-  return rendering().draw_scene(connection.get(), view, frame, stage, range, size);
+  pictures_ = rendering().scenes(connection_.get(), size);
+}
+
+ScenePainter::~ScenePainter() = default;
+
+Image ScenePainter::draw(const View& view, const Frame& frame, const Stage& stage, const ColourRange& range) {
+  const SilentStandardError silent;
+  return pictures_->draw(view, frame, stage, range);
 }
 
 }  // namespace pendular::viz

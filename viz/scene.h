@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "viz/image.h"
 
 namespace pendular::viz {
+
+struct ScenePictures;
 
 /// What a picture of the specimen shows.
 struct View {
@@ -54,9 +57,22 @@ struct ColourRange {
 /// specimen's.
 ColourRange colour_range(const View& view, const Frame& frame, const Stage& stage);
 
-/// Beads as spheres with colour bar, platens, title with strain and stress, length scale, and the trace of
-/// the shear band beside the specimen where one is known.
-Image draw_scene(const Display& display, const View& view, const Frame& frame, const Stage& stage,
-                 const ColourRange& range, PictureSize size = {});
+/// Draws views of one size, of any frames: its window takes longer to make than a picture to draw. The
+/// display outlives it.
+class ScenePainter {
+ public:
+  explicit ScenePainter(const Display& display, PictureSize size = {});
+  ~ScenePainter();
+  ScenePainter(const ScenePainter&) = delete;
+  ScenePainter& operator=(const ScenePainter&) = delete;
+
+  /// Beads as spheres with colour bar, platens, title with strain and stress, length scale, and the trace of
+  /// the shear band beside the specimen where one is known.
+  Image draw(const View& view, const Frame& frame, const Stage& stage, const ColourRange& range);
+
+ private:
+  Display::Connection connection_;  ///< closed after the window
+  std::unique_ptr<ScenePictures> pictures_;
+};
 
 }  // namespace pendular::viz

@@ -114,7 +114,7 @@ def streams():
 
 def names():
     film = lambda name: lambda folder: (folder / name / "film.mp4").stat().st_size > 1000
-    for name in ("a%d", "a%04d%s%n", "a:b", "a b", "a'b\"c", "-a", "pipe:", "ä€"):
+    for name in ("a%d%04d%s%n", "pipe:a:b", "-a b'c\"dä€"):  # patterns, protocols, options and quotes of other programs
         quoted = "'" + name.replace("'", "'\\''") + "'"
         yield Row(f"14 render -o {name}", f"$P render run --view displacement --quiet --out={quoted}", 0, "", changes=(name.replace("[", "?"), name + "/*"),
                   then=film(name))

@@ -67,6 +67,7 @@ class Scene : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     display_ = std::make_unique<viz::Display>();
+    painter_ = std::make_unique<viz::ScenePainter>(*display_, kSize);
     const fs::path folder = fs::temp_directory_path() / ("pendular.scene." + std::to_string(::getpid()));
     test::write_planted_run(folder, planted_);
     run_ = read_run_folder(folder);
@@ -75,13 +76,17 @@ class Scene : public ::testing::Test {
     stage_ = viz::make_stage(first_, last_, run_.result);
     fs::remove_all(folder);
   }
-  static void TearDownTestSuite() { display_.reset(); }
+  static void TearDownTestSuite() {
+    painter_.reset();
+    display_.reset();
+  }
 
   static Image draw(const viz::View& view, const viz::Frame& frame) {
-    return viz::draw_scene(*display_, view, frame, stage_, viz::colour_range(view, frame, stage_), kSize);
+    return painter_->draw(view, frame, stage_, viz::colour_range(view, frame, stage_));
   }
 
   static inline std::unique_ptr<viz::Display> display_;
+  static inline std::unique_ptr<viz::ScenePainter> painter_;
   static inline test::PlantedRun planted_;
   static inline RunFolder run_;
   static inline viz::Frame first_, last_;
@@ -134,7 +139,7 @@ TEST_F(Scene, TheBandIsRedAlongItsLineAndPaleBesideIt) {
 
 TEST_F(Scene, NothingIsRedBeforeTheBandFormed) {
   viz::View view = viz::view_named("damage");
-  const Image image = viz::draw_scene(*display_, view, first_, stage_, {0.0, 1.0}, kSize);
+  const Image image = painter_->draw(view, first_, stage_, {0.0, 1.0});
   EXPECT_EQ(red_line(image).count, 0);
 }
 
@@ -145,8 +150,17 @@ TEST_F(Scene, TheCutTakesAwayTheHalfTowardsTheCamera) {
     frame.damage[i] = frame.position[i].dot(camera) > 0.0 ? 1.0 : 0.0;
   viz::View half = viz::view_named("damage"), whole = half;
   whole.half = false;
-  EXPECT_EQ(red_line(viz::draw_scene(*display_, half, frame, stage_, {0.0, 1.0}, kSize)).count, 0);
-  EXPECT_GT(red_line(viz::draw_scene(*display_, whole, frame, stage_, {0.0, 1.0}, kSize)).count, 40000);
+  EXPECT_EQ(red_line(painter_->draw(half, frame, stage_, {0.0, 1.0})).count, 0);
+  EXPECT_GT(red_line(painter_->draw(whole, frame, stage_, {0.0, 1.0})).count, 40000);
+}
+
+TEST_F(Scene, HoldsNothingOfThePicturesBefore) {
+  for (const char* name : {"force_chains", "damage", "displacement", "broken_bonds"}) {
+    const viz::View& view = viz::view_named(name);
+    const Image image = draw(view, last_);
+    viz::ScenePainter fresh(*display_, kSize);
+    EXPECT_EQ(image.rgb, fresh.draw(view, last_, stage_, viz::colour_range(view, last_, stage_)).rgb) << name;
+  }
 }
 
 TEST_F(Scene, LooksLikeTheKeptPicture) {
@@ -197,9 +211,7 @@ TEST_F(Scene, ColourRangeIgnoresOutliers) {
 TEST_F(Scene, AFrameWithoutBandOrBreaksIsDrawnToo) {
   const viz::Stage stage = viz::make_stage(first_, first_, {});
   for (const viz::View& view : viz::views())
-    EXPECT_NO_THROW(
-        viz::draw_scene(*display_, view, first_, stage, viz::colour_range(view, first_, stage), kSize))
-        << view.name;
+    EXPECT_NO_THROW(painter_->draw(view, first_, stage, viz::colour_range(view, first_, stage))) << view.name;
 }
 
 TEST_F(Scene, UnknownViewNamesTheKnownOnes) {

@@ -28,8 +28,7 @@ Image draw_in(Canvas& canvas, const BeadMap& map) {
   const Vec3 middle = kMillimetre * 0.5 * (low + high);
   const auto colour =
       colours(map.is_signed ? ColourMap::signed_values : ColourMap::alarm, {map.low, map.high});
-  const Page page(canvas);
-  vtkRenderer *scene = page.scene, *annotation = page.annotation;
+  vtkRenderer *scene = canvas.scene(), *annotation = canvas.annotation();
   scene->AddActor(far_half(map, 0.5 * (low.y() + high.y()), colour));
   const double extent =
       kMillimetre * (std::max(high.z() - low.z(), high.x() - low.x()) + map.diameters.front());
@@ -50,7 +49,7 @@ Image draw_in(Canvas& canvas, const BeadMap& map) {
 
 std::vector<Image> bead_map_pictures(_XDisplay* connection, std::span<const BeadMap> maps, PictureSize size) {
   std::vector<Image> images;
-  Canvas canvas(connection, size);  // its window takes longer to make than a picture to draw
+  Canvas canvas(connection, size);
   for (const BeadMap& map : maps) images.push_back(draw_in(canvas, map));
   return images;
 }

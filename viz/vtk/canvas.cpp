@@ -39,6 +39,13 @@ Canvas::Canvas(_XDisplay* connection, PictureSize size) : size_(size) {
   window_->SetMultiSamples(0);
   window_->SetSize(size.width * kOversample, size.height * kOversample);
   window_->SetNumberOfLayers(2);
+  annotation_->SetBackground(1.0, 1.0, 1.0);
+  annotation_->SetLayer(0);
+  scene_->SetBackground(1.0, 1.0, 1.0);
+  scene_->SetLayer(1);
+  scene_->SetViewport(0.01, 0.01, 0.79, 0.87);
+  window_->AddRenderer(annotation_);
+  window_->AddRenderer(scene_);
 }
 
 int Canvas::scaled(double length) const {
@@ -49,6 +56,8 @@ Image Canvas::draw() {
   window_->Render();
   vtkNew<vtkUnsignedCharArray> pixels;
   window_->GetPixelData(0, 0, size_.width * kOversample - 1, size_.height * kOversample - 1, 0, pixels);
+  scene_->RemoveAllViewProps();
+  annotation_->RemoveAllViewProps();
   const vtkIdType expected = 3LL * size_.width * size_.height * kOversample * kOversample;
   Image image;
   if (pixels->GetNumberOfValues() == expected) image = averaged(*pixels, size_);
@@ -56,21 +65,6 @@ Image Canvas::draw() {
   if (std::all_of(image.rgb.begin(), image.rgb.end(), [](std::uint8_t v) { return v == 0; }))
     throw ComputationFailed("the X display draws no OpenGL 3.2 (unset DISPLAY to use a private Xvfb)");
   return image;
-}
-
-Page::Page(Canvas& canvas) : window_(canvas.window()) {
-  annotation->SetBackground(1.0, 1.0, 1.0);
-  annotation->SetLayer(0);
-  scene->SetBackground(1.0, 1.0, 1.0);
-  scene->SetLayer(1);
-  scene->SetViewport(0.01, 0.01, 0.79, 0.87);
-  window_->AddRenderer(annotation);
-  window_->AddRenderer(scene);
-}
-
-Page::~Page() {
-  window_->RemoveRenderer(scene);
-  window_->RemoveRenderer(annotation);
 }
 
 }  // namespace pendular::viz

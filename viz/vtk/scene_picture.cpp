@@ -220,16 +220,10 @@ std::string state_line(const Frame& frame, const Stage& stage) {
   return line;
 }
 
-}  // namespace
-
-Image scene_picture(_XDisplay* connection, const View& view, const Frame& frame, const Stage& stage,
-                    const ColourRange& range, PictureSize size) {
-  Canvas canvas(connection, size);
+Image draw_in(Canvas& canvas, PictureSize size, const View& view, const Frame& frame, const Stage& stage,
+              const ColourRange& range) {
   const auto map = colours(colour_map(view.colour), {range.low, range.high});
-
-  const Page page(canvas);
-  vtkRenderer *scene = page.scene, *annotation = page.annotation;
-
+  vtkRenderer *scene = canvas.scene(), *annotation = canvas.annotation();
   if (view.beads) add_beads(scene, view, frame, stage, map);
   if (view.broken_bonds) add_broken_bonds(scene, view, frame, stage);
   if (view.force_chains) add_force_chains(scene, frame, stage, map, range.high);
@@ -244,6 +238,24 @@ Image scene_picture(_XDisplay* connection, const View& view, const Frame& frame,
     add_colour_bar(annotation, canvas, bar_title(view.colour), {range.low, range.high}, map);
   add_length_scale(annotation, canvas, "1 mm", picture_share(scene, size, 1.0));
   return canvas.draw();
+}
+
+class CanvasScenes : public ScenePictures {
+ public:
+  CanvasScenes(_XDisplay* connection, PictureSize size) : size_(size), canvas_(connection, size) {}
+  Image draw(const View& view, const Frame& frame, const Stage& stage, const ColourRange& range) override {
+    return draw_in(canvas_, size_, view, frame, stage, range);
+  }
+
+ private:
+  PictureSize size_;
+  Canvas canvas_;
+};
+
+}  // namespace
+
+std::unique_ptr<ScenePictures> scene_pictures(_XDisplay* connection, PictureSize size) {
+  return std::make_unique<CanvasScenes>(connection, size);
 }
 
 }  // namespace pendular::viz
