@@ -5,8 +5,8 @@
 
 namespace pendular::cli {
 
-/// Commands that read or draw pictures need libraries (ITK, OpenCV, VTK's rendering) that take longer to load
-/// than many a run of a bank takes. They are in a program of their own, `pendular-pictures`, which `pendular`
+/// Commands that read volumes or draw need libraries (ITK, HDF5, OpenCV) that take longer to load than many a
+/// run of a bank takes. They are in a program of their own, `pendular-pictures`, which `pendular`
 /// becomes.
 bool is_picture_command(const std::string& name);
 

@@ -63,7 +63,7 @@ double lightness(const std::array<std::uint8_t, 3>& rgb) {
   return y > 216.0 / 24389.0 ? 116.0 * std::cbrt(y) - 16.0 : y * 24389.0 / 27.0;
 }
 
-class Scene : public ::testing::Test {
+class Scenes : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     display_ = std::make_unique<viz::Display>();
@@ -93,7 +93,7 @@ class Scene : public ::testing::Test {
   static inline viz::Stage stage_;
 };
 
-TEST_F(Scene, EveryViewShowsSomethingAndCutsNothingOff) {
+TEST_F(Scenes, EveryViewShowsSomethingAndCutsNothingOff) {
   for (const viz::View& view : viz::views()) {
     const Image image = draw(view, last_);
     ASSERT_EQ(image.width, kSize.width);
@@ -110,7 +110,7 @@ TEST_F(Scene, EveryViewShowsSomethingAndCutsNothingOff) {
   }
 }
 
-TEST_F(Scene, TheBandRunsAtItsPlantedAngleFromUpperLeftToLowerRight) {
+TEST_F(Scenes, TheBandRunsAtItsPlantedAngleFromUpperLeftToLowerRight) {
   for (const char* name : {"shear_strain", "damage", "broken_bonds"}) {
     const RedLine line = red_line(draw(viz::view_named(name), last_));
     ASSERT_GT(line.count, 2000) << name;
@@ -118,7 +118,7 @@ TEST_F(Scene, TheBandRunsAtItsPlantedAngleFromUpperLeftToLowerRight) {
   }
 }
 
-TEST_F(Scene, TheBandIsRedAlongItsLineAndPaleBesideIt) {
+TEST_F(Scenes, TheBandIsRedAlongItsLineAndPaleBesideIt) {
   const Image image = draw(viz::view_named("shear_strain"), last_);
   const RedLine line = red_line(image);
   const double along_x = std::sin(planted_.band_angle), along_y = std::cos(planted_.band_angle);
@@ -137,13 +137,13 @@ TEST_F(Scene, TheBandIsRedAlongItsLineAndPaleBesideIt) {
   EXPECT_LT(share_of_red(-90.0), 0.02);
 }
 
-TEST_F(Scene, NothingIsRedBeforeTheBandFormed) {
+TEST_F(Scenes, NothingIsRedBeforeTheBandFormed) {
   viz::View view = viz::view_named("damage");
   const Image image = painter_->draw(view, first_, stage_, {0.0, 1.0});
   EXPECT_EQ(red_line(image).count, 0);
 }
 
-TEST_F(Scene, TheCutTakesAwayTheHalfTowardsTheCamera) {
+TEST_F(Scenes, TheCutTakesAwayTheHalfTowardsTheCamera) {
   viz::Frame frame = first_;
   const Vec3 camera = Vec3(std::sin(planted_.band_azimuth), -std::cos(planted_.band_azimuth), 0.0);
   for (std::size_t i = 0; i < frame.damage.size(); ++i)
@@ -154,7 +154,7 @@ TEST_F(Scene, TheCutTakesAwayTheHalfTowardsTheCamera) {
   EXPECT_GT(red_line(painter_->draw(whole, frame, stage_, {0.0, 1.0})).count, 40000);
 }
 
-TEST_F(Scene, HoldsNothingOfThePicturesBefore) {
+TEST_F(Scenes, HoldsNothingOfThePicturesBefore) {
   for (const char* name : {"force_chains", "damage", "displacement", "broken_bonds"}) {
     const viz::View& view = viz::view_named(name);
     const Image image = draw(view, last_);
@@ -163,7 +163,7 @@ TEST_F(Scene, HoldsNothingOfThePicturesBefore) {
   }
 }
 
-TEST_F(Scene, LooksLikeTheKeptPicture) {
+TEST_F(Scenes, LooksLikeTheKeptPicture) {
   const Image image = draw(viz::view_named("shear_strain"), last_);
   vtkNew<vtkPNGReader> reader;
   const fs::path kept = fs::path(pendular::test::source_folder()) / "tests/viz/shear_strain_16x16.png";
@@ -185,7 +185,7 @@ TEST_F(Scene, LooksLikeTheKeptPicture) {
   EXPECT_LT(total / 256.0, 6.0);
 }
 
-TEST_F(Scene, EqualStepsOfTheColourBarAreEqualStepsOfLightness) {
+TEST_F(Scenes, EqualStepsOfTheColourBarAreEqualStepsOfLightness) {
   for (const char* name : {"displacement", "shear_strain"}) {
     const Image image = draw(viz::view_named(name), last_);
     const int x = static_cast<int>(0.86 * kSize.width), top = static_cast<int>(0.25 * kSize.height),
@@ -199,7 +199,7 @@ TEST_F(Scene, EqualStepsOfTheColourBarAreEqualStepsOfLightness) {
   }
 }
 
-TEST_F(Scene, ColourRangeIgnoresOutliers) {
+TEST_F(Scenes, ColourRangeIgnoresOutliers) {
   viz::Frame frame = last_;
   const auto before = viz::colour_range(viz::view_named("shear_strain"), frame, stage_);
   for (std::size_t i = 0; i < 10; ++i) frame.shear_strain[i * 17] = i % 2 ? 1e6 : std::nan("");
@@ -208,13 +208,13 @@ TEST_F(Scene, ColourRangeIgnoresOutliers) {
   EXPECT_NEAR(after.low, before.low, 0.1 * before.high);
 }
 
-TEST_F(Scene, AFrameWithoutBandOrBreaksIsDrawnToo) {
+TEST_F(Scenes, AFrameWithoutBandOrBreaksIsDrawnToo) {
   const viz::Stage stage = viz::make_stage(first_, first_, {});
   for (const viz::View& view : viz::views())
     EXPECT_NO_THROW(painter_->draw(view, first_, stage, viz::colour_range(view, first_, stage))) << view.name;
 }
 
-TEST_F(Scene, UnknownViewNamesTheKnownOnes) {
+TEST_F(Scenes, UnknownViewNamesTheKnownOnes) {
   try {
     viz::view_named("strain");
     FAIL();
