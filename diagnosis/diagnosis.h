@@ -110,7 +110,9 @@ struct Diagnosis {
   std::string nearest_signature;  ///< the single effect of least χ², or "none"
   Promise promise;                ///< how far all this holds, from the replay
   std::vector<Unseen>
-      unseen;            ///< effects outside the set that none stands for (stand_in()), or nothing shows
+      unseen;  ///< effects outside the set that none stands for (stand_in()), or nothing shows
+  std::string unlike =
+      {};                ///< what observations show that no effect brings about, where it lets `unknown` in
   double p_value = 1.0;  ///< of the best explanation's χ² under noise alone
   std::vector<std::string> effects;  ///< rows of `signatures` and `separation`
   Eigen::MatrixXd signatures;        ///< effect × feature at the effect's scale, over the feature's noise

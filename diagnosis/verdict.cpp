@@ -53,7 +53,8 @@ std::string cause(const Diagnosis& diagnosis) {
   if (best.id == kUnknown)
     return fmt::format(
         "The cause is not known: {}, probability {}{}.",
-        count_of_significant(diagnosis) > 0
+        !diagnosis.unlike.empty() ? diagnosis.unlike + ", which no effect of the library brings about"
+        : count_of_significant(diagnosis) > 0
             ? "no effect of the library explains the gap"
             : "no feature by itself differs by more than the noise, but together they differ as hardly any "
               "simulated experiment does; something outside the library",
@@ -125,8 +126,12 @@ std::string where(const Diagnosis& diagnosis) {
   const auto& rows = diagnosis.gap.rows;
   const std::ptrdiff_t count = count_of_significant(diagnosis);
   if (count == 0)
-    return fmt::format("None of {} features differs by more than the noise (all |z| below {:.1f}).",
-                       rows.size(), diagnosis.gap.threshold);
+    return fmt::format(
+        "None of {} features by itself differs by more than the noise (all |z| below {:.1f}){}.", rows.size(),
+        diagnosis.gap.threshold,
+        effects_in(diagnosis.explanations.front().id).empty()
+            ? ""
+            : "; what tells the cause are all readings together");
   const auto worst = std::max_element(rows.begin(), rows.end(), [](const GapRow& a, const GapRow& b) {
     return std::fabs(a.z) < std::fabs(b.z);
   });

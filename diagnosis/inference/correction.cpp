@@ -45,6 +45,15 @@ void weigh_unknown_by_misfits(std::vector<Hypothesis>& said, const Correction& c
   for (auto& h : said) h.probability = (h.id == kUnknown ? odds : h.probability) / (1.0 + odds);
 }
 
+/// What is unknown has beside all explanations, by what the observations show by themselves.
+void add_odds_by_itself(double odds, std::vector<Hypothesis>& said) {
+  const Hypothesis* unknown = said_of(said, kUnknown);
+  if (!unknown || odds <= 0.0) return;
+  const double whole = 1.0 + odds * (1.0 - unknown->probability);
+  for (auto& h : said)
+    h.probability = h.id == kUnknown ? 1.0 - (1.0 - h.probability) / whole : h.probability / whole;
+}
+
 }  // namespace
 
 const Hypothesis* said_of(const std::vector<Hypothesis>& said, const std::string& id) {
@@ -102,6 +111,7 @@ std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction
       interval = {mean + widening * (interval.first - mean), mean + widening * (interval.second - mean)};
   }
   if (by_misfits) weigh_unknown_by_misfits(said, correction);
+  add_odds_by_itself(correction.odds_by_itself, said);
   said = with_others_as_one(std::move(said));
   std::stable_sort(said.begin(), said.end(),
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });

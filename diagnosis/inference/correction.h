@@ -37,9 +37,11 @@ struct Widening {
 struct Correction {
   double temperature = 2.0;           ///< by which logarithms of evidence are divided
   double temperature_of_pairs = 2.0;  ///< likewise, what a pair's has beyond the best of plainer()
-  std::vector<double> misfits = {};   ///< χ² that none or one effect leaves in replayed runs, ascending
-  Misfit misfit = {};                 ///< the odds of `unknown` by them
-  double level = 0.95;                ///< of the known explanations' probability, that a set holds
+  /// Of what observations show that no effect of the library brings about, odds of `unknown` to all others.
+  double odds_by_itself = 0.0;
+  std::vector<double> misfits = {};  ///< χ² that none or one effect leaves in replayed runs, ascending
+  Misfit misfit = {};                ///< the odds of `unknown` by them
+  double level = 0.95;               ///< of the known explanations' probability, that a set holds
   std::map<std::string, double> levels = {};  ///< likewise, for explanations that need another one to get in
   double gate = 0.1;                          ///< P(unknown) from which it is in the set
   Widening widening = {};                     ///< of intervals of θ

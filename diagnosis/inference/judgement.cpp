@@ -12,6 +12,7 @@
 #include "diagnosis/bank/law_readings.h"
 #include "diagnosis/inference/correction.h"
 #include "diagnosis/inference/reduced_space.h"
+#include "diagnosis/kinds/kind.h"
 #include "diagnosis/thresholds.h"
 #include "diagnosis/words.h"
 #include "effects/list.h"
@@ -109,6 +110,34 @@ Priors priors_of(const Comparison& readings, const Rules& rules) {
   return priors;
 }
 
+/// Of all observations the least probable by chance, as the least of so many.
+Unlike unlike_of(const Experiment& experiment) {
+  Unlike least;
+  double looked_at = 0.0;
+  for (const auto& observation : experiment.observations) {
+    if (!observation.kind->unlike) continue;
+    looked_at += 1.0;
+    if (Unlike one = observation.kind->unlike(observation); one.by_chance < least.by_chance)
+      least = std::move(one);
+  }
+  least.by_chance = std::min(1.0, std::max(1.0, looked_at) * least.by_chance);
+  return least;
+}
+
+/// The most that odds can rise by something of this probability by chance (Sellke, Bayarri & Berger 2001, Am.
+/// Stat. 55, 62), less that of nothing.
+double odds_by_itself(double by_chance) {
+  const double p = std::max(by_chance, kThresholds.least_by_chance);
+  return p < std::exp(-1.0) ? kThresholds.unlike_all * (-1.0 / (M_E * p * std::log(p)) - 1.0) : 0.0;
+}
+
+void set_unlike(const Experiment& experiment, Diagnosis& diagnosis) {
+  const auto& [by_chance, what] = unlike_of(experiment);
+  double& odds = diagnosis.promise.correction.odds_by_itself;
+  odds = odds_by_itself(by_chance);
+  if (odds / (1.0 + odds) > kThresholds.lets_unknown_in) diagnosis.unlike = what;
+}
+
 bool is_in(const std::vector<std::string>& ids, const std::string& id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
@@ -161,7 +190,8 @@ void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hyp
       e.excluded = visible >= rules.separable;
     }
     if (h.id == "unknown")
-      if (const char* why = why_unknown(hypotheses, diagnosis.promise.correction)) e.reason = why;
+      if (const char* why = why_unknown(hypotheses, diagnosis.promise.correction))
+        e.reason = diagnosis.unlike.empty() ? why : diagnosis.unlike;
     diagnosis.explanations.push_back(std::move(e));
   }
   for (const auto& [id, why] : plan.absent) {
@@ -272,6 +302,7 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
       problem.features ? replay(experiment, plan, *problem.features, priors, rules.draws, LeftOut::effects)
                        : std::vector<Replayed>{},
       rules.confidence, priors.misfit);
+  set_unlike(experiment, diagnosis);
   const auto hypotheses = corrected(weigh(readings.gap, readings.signatures, readings.together, priors),
                                     diagnosis.promise.correction);
   const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();

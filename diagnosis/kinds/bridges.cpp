@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/quantile.h"
 #include "base/random.h"
+#include "diagnosis/kinds/evenness.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
 #include "effects/list.h"
@@ -19,6 +20,7 @@ constexpr double kUm = 1e6;
 constexpr double kSteep = 0.7, kFlat = 0.35;  // cosine of a pair's direction to the axis
 constexpr std::size_t kLeastPairs = 20, kLeastNecks = 10;
 constexpr double kFarPair = 0.3;                           // gap over bead diameter, of the median pair
+constexpr double kUnevenShare = 0.01, kUnevenNeck = 0.02;  // rms by place, of a scan's own artefacts
 constexpr double kShareError = 0.005, kNeckError = 0.005;  // of the simulation
 
 /// Where pairs are in a specimen, as columns.
@@ -34,6 +36,9 @@ class Places {
   void add(Columns& columns, std::int64_t id_i, std::int64_t id_j) const {
     const Bead &a = *by_id_.at(id_i), &b = *by_id_.at(id_j);
     const Vec3 at = 0.5 * (a.centre + b.centre) - box_.center(), way = (b.centre - a.centre).normalized();
+    const Vec3 place = at.cwiseQuotient(box_.sizes());
+    columns["across_x"].push_back(place.x()), columns["across_y"].push_back(place.y());
+    columns["along_z"].push_back(place.z());
     columns["cosine"].push_back(std::fabs(way.z()));
     columns["height"].push_back(at.z() / box_.sizes().z() + 0.5);
     columns["radius"].push_back(2.0 * std::hypot(at.x(), at.y()) / box_.sizes().x());
@@ -222,6 +227,28 @@ std::vector<Feature> landmarks(const Observation& observation, const Columns& co
   return list.take();
 }
 
+/// In every effect that bridges at rest show they are alike in all places and directions: whether a pair has
+/// one, and its neck.
+Unlike unlike(const Observation& observation) {
+  if (observation.numbers.at("strain") > 0.0 || observation.words.at("use") == "simulate") return {};
+  const auto& joined = observation.column("joined");
+  const double of_bridges = evenness(observation.columns, joined, kUnevenShare);
+  double of_necks = 1.0;
+  if (observation.has("bridge_diameter_um")) {
+    std::vector<double> necks = observation.column("bridge_diameter_um"), found;
+    for (std::size_t k = 0; k < necks.size(); ++k)
+      if (necks[k] > 0.0 && joined[k] == 1.0)
+        found.push_back(necks[k]);
+      else
+        necks[k] = std::nan("");
+    if (!found.empty()) of_necks = evenness(observation.columns, necks, kUnevenNeck * mean_of(found));
+  }
+  const bool bridges_first = of_bridges <= of_necks;
+  return {std::min(1.0, 2.0 * std::min(of_bridges, of_necks)),
+          bridges_first ? "bridges are not equally frequent in all places and directions"
+                        : "necks are not alike in all places and directions"};
+}
+
 /// Necks drawn again with their errors, which are off by one factor.
 void draw_necks_again(Columns& columns, unsigned long seed) {
   const auto d = columns.find("bridge_diameter_um"), sigma = columns.find("sigma_bridge_diameter_um");
@@ -277,6 +304,7 @@ const Kind& kinds::bridges() {
       .course = course,
       .simulate = simulate,
       .landmarks = landmarks,
+      .unlike = unlike,
       .perturbed = perturbed,
       .model_error = model_error};
   return kind;

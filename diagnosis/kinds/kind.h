@@ -36,6 +36,12 @@ struct UsualMeasurement {
   double cost = 1.0;  ///< in units of one compression test
 };
 
+/// What an observation shows that no effect of the library brings about, and how probable it is by chance.
+struct Unlike {
+  double by_chance = 1.0;
+  std::string what = {};  ///< a clause
+};
+
 /// One kind of observation: everything that the diagnosis knows of it stands in the kind's own file. A hook
 /// is null where the kind has no part in the question.
 struct Kind {
@@ -66,6 +72,8 @@ struct Kind {
       nullptr;
   /// A displacement of every bead that was followed, without rigid motion and scale, m; three rows a bead.
   std::function<Eigen::VectorXd(const Observation& observation, const Columns& columns)> field = nullptr;
+  /// What no effect of the library brings about, of the observation by itself.
+  std::function<Unlike(const Observation& observation)> unlike = nullptr;
   /// Columns as another measurement of the same might have them.
   std::function<Columns(const Observation& observation, unsigned long seed)> perturbed = nullptr;
   /// Columns of such a measurement as it is usually made, up to a platen strain: where it reads and with
