@@ -10,8 +10,8 @@ void read(std::vector<CurveRow>& rows, const Gauge& gauge, double theta) {
 }  // namespace
 
 /// The paper's platens move as far as the machine says. A real machine gives way: its reading is the
-/// specimen's shortening and θ times the force. Strains in the tomogram, and in the run's events and frames,
-/// do not have it. Lowers E: 1/E grows by θ A/L.
+/// specimen's shortening and θ times the force. Strains that are measured in a tomogram, and those of the
+/// run's events and frames, do not have it. Lowers E: 1/E grows by θ A/L.
 Effect machine_compliance() {
   return {.id = "machine_compliance",
           .unit = "um/N",

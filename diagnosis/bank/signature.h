@@ -44,9 +44,14 @@ struct Signature : Response {
   double scale = 0.0;                  ///< a usual |θ|
   double least = 0.0;                  ///< |θ| below which the effect counts as absent
   double error = 0.1;                  ///< of each feature's response, as a share of it
+  std::vector<Response> others = {};   ///< each may be the response as well, and is as likely
   double outside = 0.03;  ///< of what it does outside the span of all responses, over what it does
 
-  const Response& response(double theta) const { return theta < 0.0 && below ? *below : *this; }
+  std::size_t readings() const { return 1 + others.size(); }
+  const Response& response(double theta, std::size_t reading = 0) const {
+    if (reading > 0) return others[reading - 1];
+    return theta < 0.0 && below ? *below : *this;
+  }
   Eigen::VectorXd at(double theta) const { return response(theta).at(theta); }
 };
 

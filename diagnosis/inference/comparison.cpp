@@ -11,6 +11,7 @@
 #include "diagnosis/bank/mean_row.h"
 #include "diagnosis/bank/model_error.h"
 #include "diagnosis/inference/reduced_space.h"
+#include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
 #include "diagnosis/thresholds.h"
 #include "effects/list.h"
@@ -60,7 +61,28 @@ class Learner {
       signature.scale = usual_magnitude(effect),
       signature.least = kThresholds.least_share * largest_in_bank(effect);
       signature.error = effect.beads ? kThresholds.error_of_beads : kThresholds.response_error;
+      if (effect.reads_only()) add_true_strains(signature);
       found_.signatures.push_back(std::move(signature));
+    }
+  }
+
+  /// Strains of scans, or of gauges as well, may be those of the specimen: a wrong reading of the machine
+  /// does nothing there.
+  void add_true_strains(Signature& signature) const {
+    Response response = signature;
+    for (const StrainBy measured : {StrainBy::scan, StrainBy::gauge}) {
+      bool differs = false;
+      for (std::size_t f = 0; f < found_.observed.features.size(); ++f) {
+        const std::size_t o = found_.observed.observation[f];
+        if (o >= experiment_.observations.size() || experiment_.observations[o].kind->strain_by != measured)
+          continue;
+        for (auto& power : response.powers) {
+          double& of_feature = power[static_cast<Eigen::Index>(f)];
+          differs = differs || of_feature != 0.0;
+          of_feature = 0.0;
+        }
+      }
+      if (differs) signature.others.push_back(response);
     }
   }
 
@@ -215,6 +237,7 @@ std::vector<Signature> part_of(const std::vector<Signature>& signatures,
   for (auto& part : parts) {
     take(part);
     if (part.below) take(*part.below);
+    for (auto& other : part.others) take(other);
   }
   return parts;
 }

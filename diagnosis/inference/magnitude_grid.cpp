@@ -70,12 +70,29 @@ MagnitudeGrid::MagnitudeGrid(std::vector<Signature> reduced, std::optional<Toget
     : reduced_(std::move(reduced)), together_(std::move(together)), space_(space) {}
 
 std::vector<std::vector<MagnitudeGrid::Fitted>> MagnitudeGrid::fit(std::span<const ReducedGap> gaps) {
-  Cells whole;
-  for (std::size_t e = 0; e < reduced_.size(); ++e)
-    whole[e] = {0.5 * (reduced_[e].lowest + reduced_[e].highest), reduced_[e].highest - reduced_[e].lowest};
+  std::vector<Cells> all;
+  for (const Cells& whole : whole_ranges()) {
+    const auto parts = parts_of(whole, reduced_.size() > 1 ? kCellsOfTwo : kCellsOfOne);
+    all.insert(all.end(), parts.begin(), parts.end());
+  }
   std::vector<std::vector<Fitted>> fitted(gaps.size());
-  fit(parts_of(whole, reduced_.size() > 1 ? kCellsOfTwo : kCellsOfOne), gaps, batches_, fitted);
+  fit(all, gaps, batches_, fitted);
   return fitted;
+}
+
+/// The range of each effect, for all readings of these.
+std::vector<MagnitudeGrid::Cells> MagnitudeGrid::whole_ranges() const {
+  std::vector<Cells> found = {{}};
+  for (std::size_t e = 0; e < reduced_.size(); ++e) {
+    const Signature& one = reduced_[e];
+    std::vector<Cells> longer;
+    for (const Cells& so_far : found)
+      for (std::size_t reading = 0; reading < one.readings(); ++reading)
+        (longer.emplace_back(so_far))[e] = {0.5 * (one.lowest + one.highest), one.highest - one.lowest,
+                                            reading};
+    found = std::move(longer);
+  }
+  return found;
 }
 
 /// The cell of each effect, cut into so many.
@@ -86,7 +103,7 @@ std::vector<MagnitudeGrid::Cells> MagnitudeGrid::parts_of(const Cells& cells, in
     for (const auto& so_far : found)
       for (int k = 0; k < parts; ++k)
         (longer.emplace_back(so_far))[e] = {cells[e].theta + cells[e].width * ((k + 0.5) / parts - 0.5),
-                                            cells[e].width / parts};
+                                            cells[e].width / parts, cells[e].reading};
     found = std::move(longer);
   }
   return found;
@@ -100,13 +117,15 @@ void MagnitudeGrid::fit(const std::vector<Cells>& all, std::span<const ReducedGa
   for (const auto& cells : all) {
     double log_prior = 0.0;
     for (std::size_t e = 0; e < reduced_.size(); ++e)
-      log_prior += log_prior_of(reduced_[e], cells[e].theta, cells[e].width);
+      log_prior += log_prior_of(reduced_[e], cells[e].theta, cells[e].width) -
+                   std::log(static_cast<double>(reduced_[e].readings()));
     if (log_prior != kNever) places.push_back({cells, log_prior});
   }
-  std::array<std::map<double, Expected>, 2> known;  // cells of two effects are all pairs of some of each
-  const auto of_effect = [&](std::size_t e, double theta) -> const Expected& {
-    const auto [at, added] = known[e].try_emplace(theta);
-    if (added) at->second = expected_of(e, theta);
+  // Cells of two effects are all pairs of some of each.
+  std::array<std::map<std::pair<std::size_t, double>, Expected>, 2> known;
+  const auto of_effect = [&](std::size_t e, const Cell& cell) -> const Expected& {
+    const auto [at, added] = known[e].try_emplace({cell.reading, cell.theta});
+    if (added) at->second = expected_of(e, cell);
     return at->second;
   };
   Workspace room(space_.size());
@@ -116,8 +135,8 @@ void MagnitudeGrid::fit(const std::vector<Cells>& all, std::span<const ReducedGa
     std::vector<Expected> here;
     for (std::size_t k = first; k < std::min(first + kLanes, places.size()); ++k) {
       const Cells& cells = places[k].cells;
-      here.push_back(of_effect(0, cells[0].theta));
-      if (reduced_.size() > 1) here.back() = together(here.back(), of_effect(1, cells[1].theta), cells);
+      here.push_back(of_effect(0, cells[0]));
+      if (reduced_.size() > 1) here.back() = together(here.back(), of_effect(1, cells[1]), cells);
       batch.places.push_back(places[k]);
     }
     const auto responses = responses_of(here);
@@ -144,9 +163,10 @@ MagnitudeGrid::Fitted MagnitudeGrid::fitted_of(const Batch& batch, std::size_t l
 }
 
 /// What an effect does, and how it is known.
-Expected MagnitudeGrid::expected_of(std::size_t effect, double theta) const {
+Expected MagnitudeGrid::expected_of(std::size_t effect, const Cell& cell) const {
+  const double theta = cell.theta;
   const Signature& signature = reduced_[effect];
-  const Response& response = signature.response(theta);
+  const Response& response = signature.response(theta, cell.reading);
   Expected found{response.at(theta), {}};
   found.shares = variance_of(signature, found.response, space_.inexact());
   found.outside = std::pow(signature.outside, 2) * found.response.squaredNorm();
@@ -195,7 +215,9 @@ Weighed MagnitudeGrid::weigh(const ReducedGap& gap, std::vector<Fitted> fitted, 
     std::erase_if(fitted, [&](const Fitted& one) {
       const auto& cells = one.place().cells;
       for (std::size_t e = 0; e < reduced_.size(); ++e)
-        if (std::fabs(cells[e].theta - best[e].theta) > 0.75 * (cells[e].width + best[e].width)) return false;
+        if (cells[e].reading != best[e].reading ||
+            std::fabs(cells[e].theta - best[e].theta) > 0.75 * (cells[e].width + best[e].width))
+          return false;
       const auto parts = parts_of(cells, kParts);
       cut.insert(cut.end(), parts.begin(), parts.end());
       return true;

@@ -44,9 +44,10 @@ class MagnitudeGrid {
 
  private:
   static constexpr std::size_t kScales = 5;  // of the standard deviations of a response's own covariance
-  /// Some magnitudes of an effect, for which the one in the middle stands.
+  /// Some magnitudes of an effect, for which the one in the middle stands, and which of its readings acts.
   struct Cell {
     double theta = 0.0, width = 0.0;
+    std::size_t reading = 0;
   };
   /// Of each effect; of one effect, the first.
   using Cells = std::array<Cell, 2>;
@@ -61,12 +62,13 @@ class MagnitudeGrid {
   };
   using Batches = std::deque<Batch>;  // what fits point into
 
+  std::vector<Cells> whole_ranges() const;
   std::vector<Cells> parts_of(const Cells& cells, int parts) const;
   /// Fits of cells to each gap, added to those that there are.
   void fit(const std::vector<Cells>& all, std::span<const ReducedGap> gaps, Batches& batches,
            std::span<std::vector<Fitted>> to) const;
   static Fitted fitted_of(const Batch& batch, std::size_t lane, const std::array<Fits, kScales>& fits);
-  Expected expected_of(std::size_t effect, double theta) const;
+  Expected expected_of(std::size_t effect, const Cell& cell) const;
   Expected together(const Expected& a, const Expected& b, const Cells& cells) const;
   Magnitude magnitude(std::size_t effect, const std::vector<Fitted>& fitted, double log_evidence) const;
 

@@ -70,6 +70,7 @@ void ReducedSpace::reduce(Response& response) const {
 Signature ReducedSpace::reduced(Signature signature) const {
   reduce(signature);
   if (signature.below) reduce(*signature.below);
+  for (auto& other : signature.others) reduce(other);
   return signature;
 }
 
@@ -166,12 +167,14 @@ void ReducedSpace::find_directions(const std::vector<Signature>& signatures) {
   std::vector<Eigen::VectorXd> columns;
   for (const auto& signature : signatures)
     for (const double end : {signature.lowest, signature.highest})
-      for (int k = 1; k <= kSpanned && end != 0.0; ++k) {
-        Eigen::VectorXd response = whiten(signature.at(end * k / kSpanned));
-        response(exact_).setZero();
-        const double length = response.norm();
-        if (length > 0.0) columns.push_back(response * std::min(1.0, kThresholds.longest / length));
-      }
+      for (int k = 1; k <= kSpanned && end != 0.0; ++k)
+        for (std::size_t reading = 0; reading < signature.readings(); ++reading) {
+          const double theta = end * k / kSpanned;
+          Eigen::VectorXd response = whiten(signature.response(theta, reading).at(theta));
+          response(exact_).setZero();
+          const double length = response.norm();
+          if (length > 0.0) columns.push_back(response * std::min(1.0, kThresholds.longest / length));
+        }
   const Eigen::Index features = factor_.rows();
   std::vector<Eigen::Index> others;
   for (Eigen::Index f = 0; f < features; ++f)

@@ -298,6 +298,7 @@ const Kind& kinds::bridges() {
       .optional = {"gap_um", "sigma_gap_um", "probability", "bridge_diameter_um", "sigma_bridge_diameter_um"},
       .least_rows = 20,
       .scale = Scale::network,
+      .strain_by = StrainBy::scan,
       .keys = {{"strain", {}, 0.0, 0.5, 0.0}, {"use", {"compare", "simulate"}}},
       .read = read,
       .check = check,

@@ -233,6 +233,7 @@ const Kind& kinds::compression() {
                          .required = {"strain", "stress_pa"},
                          .optional = {"stress_sigma_pa"},
                          .least_rows = 8,
+                         .strain_by = StrainBy::machine,
                          .check = check,
                          .course = course,
                          .simulate = simulate,

@@ -338,6 +338,7 @@ const Kind& kinds::displacements() {
                          .optional = {"sigma_um"},
                          .least_rows = kLeastBeads,
                          .scale = Scale::network,
+                         .strain_by = StrainBy::scan,
                          .read = read,
                          .check = check,
                          .course = course,

@@ -36,6 +36,10 @@ struct UsualMeasurement {
   double cost = 1.0;  ///< in units of one compression test
 };
 
+/// Where the strain that an observation states comes from. The machine's may be read wrongly; of a gauge's
+/// and a scan's it is not stated whether they are the machine's or measured on the specimen.
+enum class StrainBy { machine, gauge, scan };
+
 /// What an observation shows that no effect of the library brings about, and how probable it is by chance.
 struct Unlike {
   double by_chance = 1.0;
@@ -49,6 +53,7 @@ struct Kind {
   std::vector<std::string> required = {}, optional = {};  ///< columns
   std::size_t least_rows = 1;
   Scale scale = Scale::aggregate;
+  StrainBy strain_by = StrainBy::gauge;
   std::vector<KindKey> keys = {};
   /// With it, and `planned` and `shown`, the kind is among the further measurements.
   std::optional<UsualMeasurement> usual = {};

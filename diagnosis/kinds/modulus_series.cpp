@@ -76,6 +76,7 @@ const Kind& kinds::modulus_series() {
   static const Kind kind{.name = "modulus_series",
                          .required = {"modulus_pa", "modulus_sigma_pa"},
                          .optional = {"E_p_pa", "W"},
+                         .strain_by = StrainBy::machine,
                          .check = check,
                          .landmarks = landmarks,
                          .perturbed = perturbed,

@@ -81,6 +81,37 @@ TEST(Evidence, OfOneFeatureIsItsIntegralOverMagnitudes) {
   }
 }
 
+/// One feature of value 3, and an effect of which any of these slopes may be the response.
+Hypothesis of_slopes(const std::vector<double>& slopes) {
+  Signature s;
+  s.id = "a";
+  const auto response = [](double slope) {
+    Response found;
+    found.powers = {Eigen::VectorXd::Constant(1, slope)};
+    return found;
+  };
+  static_cast<Response&>(s) = response(slopes.front());
+  for (std::size_t k = 1; k < slopes.size(); ++k) s.others.push_back(response(slopes[k]));
+  s.lowest = 0.0, s.highest = 8.0, s.scale = 1.0;
+  Gap gap;
+  gap.values = Eigen::VectorXd::Constant(1, 3.0), gap.covariance = Eigen::MatrixXd::Identity(1, 1);
+  gap.believed = Eigen::MatrixXd::Zero(1, 0);
+  for (const auto& h : weigh(gap, {s}))
+    if (h.id == "a") return h;
+  return {};
+}
+
+// Of an effect that acts in one of two ways, as likely before: the mean evidence, and the mean magnitude by
+// their evidences.
+TEST(Evidence, OfTwoReadingsIsTheirMean) {
+  const Hypothesis steep = of_slopes({2.0}), flat = of_slopes({0.5}), either = of_slopes({2.0, 0.5});
+  const double of_steep = std::exp(steep.log_evidence), of_flat = std::exp(flat.log_evidence);
+  EXPECT_NEAR(std::exp(either.log_evidence), 0.5 * (of_steep + of_flat), 0.005 * of_steep);
+  const double mean =
+      (of_steep * steep.magnitudes[0].mean + of_flat * flat.magnitudes[0].mean) / (of_steep + of_flat);
+  EXPECT_NEAR(either.magnitudes[0].mean, mean, 0.02);
+}
+
 TEST(Evidence, ResponsesOfExactFeaturesHaveNoErrors) {
   // As above with slope 3 and 40 %, and a second feature of value 1 that does 4 θ: without an error it says
   // that θ is small, whatever the first one does.

@@ -14,12 +14,12 @@ namespace {
 
 using test::observation;
 
-constexpr std::size_t kPairs = 800;
+constexpr std::size_t kPairsOfNetwork = 800;
 
 /// Pairs anywhere in a cylinder, in any direction.
 Columns places(std::uint64_t seed) {
   Columns columns;
-  for (std::uint64_t k = 0; columns["cosine"].size() < kPairs; ++k) {
+  for (std::uint64_t k = 0; columns["cosine"].size() < kPairsOfNetwork; ++k) {
     const double x = random_uniform(seed, 4 * k) - 0.5, y = random_uniform(seed, 4 * k + 1) - 0.5;
     if (std::hypot(x, y) > 0.5) continue;
     columns["across_x"].push_back(x), columns["across_y"].push_back(y);
@@ -68,19 +68,19 @@ TEST(Evenness, ALayerACrackAndADirectionAreNoChance) {
 
 TEST(Evenness, OfFewPairsSaysNothing) {
   const Columns where = places(1);
-  std::vector<double> values(kPairs, 1.0);
+  std::vector<double> values(kPairsOfNetwork, 1.0);
   for (std::size_t k = 0; k < 19; ++k) values[k] = 0.0;
   EXPECT_EQ(evenness(where, values, 0.0), 1.0);
-  for (std::size_t k = 20; k < kPairs; ++k) values[k] = std::nan("");
+  for (std::size_t k = 20; k < kPairsOfNetwork; ++k) values[k] = std::nan("");
   EXPECT_EQ(evenness(where, values, 0.0), 1.0);
-  EXPECT_EQ(evenness(where, std::vector<double>(kPairs, 74.0), 0.0), 1.0);
+  EXPECT_EQ(evenness(where, std::vector<double>(kPairsOfNetwork, 74.0), 0.0), 1.0);
 }
 
 // What a scan's own artefacts may come to: certain, and of no account.
 TEST(Evenness, SmallDifferencesAreTolerated) {
   const Columns where = places(1);
   std::vector<double> necks;
-  for (std::size_t k = 0; k < kPairs; ++k)
+  for (std::size_t k = 0; k < kPairsOfNetwork; ++k)
     necks.push_back(74.0 + 3.0 * where.at("along_z")[k] + 1.0 * random_normal(3, k));
   EXPECT_LT(evenness(where, necks, 0.5), 1e-12);
   EXPECT_EQ(evenness(where, necks, 1.5), 1.0);
@@ -90,7 +90,7 @@ Observation network(double strain, const std::string& use) {
   Columns columns = places(1);
   const auto& z = columns.at("along_z");
   columns["joined"] = joined(columns, 2, [](std::size_t) { return 0.9; });
-  for (std::size_t k = 0; k < kPairs; ++k) {
+  for (std::size_t k = 0; k < kPairsOfNetwork; ++k) {
     columns["bead_i"].push_back(2.0 * static_cast<double>(k)),
         columns["bead_j"].push_back(2.0 * static_cast<double>(k) + 1.0);
     columns["bridge_diameter_um"].push_back(columns["joined"][k] *

@@ -1,0 +1,65 @@
+#include "diagnosis/inference/comparison.h"
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "diagnosis/bank/bank.h"
+#include "diagnosis/kinds/kind.h"
+#include "observations.h"
+
+namespace pendular::diagnosis {
+namespace {
+
+/// A curve, a gauge and a scan, of one feature each.
+Experiment three_observations() {
+  Experiment experiment;
+  for (const Kind* kind : {&kinds::compression(), &kinds::lateral_strain(), &kinds::displacements()}) {
+    Observation observation;
+    observation.kind = kind, observation.name = kind->name;
+    experiment.observations.push_back(observation);
+  }
+  return experiment;
+}
+
+/// Members at zero, with effects that change all three features in proportion to their magnitude.
+Design changed_by(const std::vector<std::string>& effects) {
+  Design design;
+  for (std::size_t o = 0; o < 3; ++o) {
+    Feature feature;
+    feature.name = "f" + std::to_string(o);
+    design.observed.features.push_back(feature), design.observed.observation.push_back(o);
+  }
+  design.observed.measurement = design.observed.model = 0.01 * Eigen::MatrixXd::Identity(3, 3);
+  std::uint64_t draws = 0;
+  for (int member = 1; member <= 6; ++member) {
+    Eigen::VectorXd base(3);
+    for (double& one : base) one = 0.1 * random_normal(7, draws++);
+    design.runs.push_back({member, "", 0.0, base});
+    design.whole.push_back(base);
+    for (const auto& id : effects)
+      for (const double theta : {1.0, 2.0})
+        design.runs.push_back(
+            {member, id, theta, base + theta * Eigen::Vector3d(1.0, 2.0, 3.0), false, true});
+  }
+  design.by_noise = Eigen::VectorXd::Zero(3);
+  return design;
+}
+
+// A curve's strain is what the machine reads. That of a scan, or of a gauge as well, may be the specimen's
+// own: then the machine's compliance does nothing there.
+TEST(Comparison, AMisreadStrainMayBeTheCurvesAlone) {
+  const Comparison found =
+      compare(three_observations(), BankPlan{}, changed_by({"machine_compliance", "platen_tilt"}));
+  ASSERT_EQ(found.signatures.size(), 2u);
+  for (const auto& signature : found.signatures) {
+    const bool misread = signature.id == "machine_compliance";
+    ASSERT_EQ(signature.readings(), misread ? 3u : 1u) << signature.id;
+    EXPECT_TRUE(signature.at(1.0).isApprox(Eigen::Vector3d(1.0, 2.0, 3.0), 1e-9)) << signature.id;
+    if (!misread) continue;
+    EXPECT_TRUE(signature.response(1.0, 1).at(1.0).isApprox(Eigen::Vector3d(1.0, 2.0, 0.0), 1e-9));
+    EXPECT_TRUE(signature.response(1.0, 2).at(1.0).isApprox(Eigen::Vector3d(1.0, 0.0, 0.0), 1e-9));
+  }
+}
+
+}  // namespace
+}  // namespace pendular::diagnosis
