@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "diagnosis/bank/law_readings.h"
+#include "diagnosis/kinds/kind.h"
 #include "diagnosis/repair/shrinkage.h"
 #include "diagnosis/thresholds.h"
 #include "diagnosis/verdict.h"
@@ -55,6 +56,29 @@ double total(const Diagnosis& diagnosis) {
   double sum = 0.0;
   for (const auto& e : diagnosis.explanations) sum += e.probability;
   return sum;
+}
+
+// Whatever explains the gap, what an observation shows by itself that no effect brings about is unknown; by
+// chance one in five shows as much.
+TEST(Judgement, WhatNoEffectBringsAboutIsUnknown) {
+  for (const double by_chance : {1e-12, 0.2}) {
+    Kind kind = kinds::compression();
+    kind.unlike = [&](const Observation&) { return Unlike{by_chance, "bridges are uneven"}; };
+    Experiment experiment = one_curve();
+    experiment.observations.front().kind = &kind;
+    Diagnosis diagnosis;
+    judge(planted({-0.4, -0.2, -0.3}), {}, {}, experiment, diagnosis);
+    const Explanation& best = diagnosis.explanations.front();
+    if (by_chance == 0.2) {
+      EXPECT_EQ(best.id, "missing_bridges");
+      EXPECT_EQ(diagnosis.unlike, "");
+      continue;
+    }
+    EXPECT_EQ(best.id, kUnknown);
+    EXPECT_GT(best.probability, 0.9);
+    EXPECT_EQ(best.reason, "bridges are uneven");
+    EXPECT_NE(verdict_of(diagnosis).find("bridges are uneven, which no effect"), std::string::npos);
+  }
 }
 
 TEST(Judgement, NamesAPlantedEffectAndItsMagnitude) {
