@@ -70,7 +70,8 @@ struct DiagnosisThresholds {
   double told = 0.5;         ///< runs told from none, below which none stands for an effect [development]
   double seen = 0.9;         ///< runs told from none, from where an effect is seen on [definition]
   double by_slip = 0.05;     ///< level of the test that a pair is told from its effects [definition]
-  double unlike_all = 0.05;  ///< odds before any data of what no effect brings about [definition]
+  double unlike_all = 0.05;  ///< odds before any data of what no effect brings about: `unknown` comes in
+                             ///< where that has a probability by chance below 0.008 [definition]
   double least_by_chance = 1e-4;  ///< the least probability that it may have by chance [definition]
   double worth_of_all = 10.0;    ///< runs that what all effects need is worth beside an effect's own [replay]
   double lets_unknown_in = 0.3;  ///< P(unknown) from which it is in a set [development]

@@ -47,6 +47,7 @@ struct Signature : Response {
   std::vector<Response> others = {};   ///< each may be the response as well, and is as likely
   double outside = 0.03;  ///< of what it does outside the span of all responses, over what it does
 
+  /// How many responses it may have, and each of them; the first is that of at().
   std::size_t readings() const { return 1 + others.size(); }
   const Response& response(double theta, std::size_t reading = 0) const {
     if (reading > 0) return others[reading - 1];

@@ -61,7 +61,7 @@ class Learner {
       signature.scale = usual_magnitude(effect),
       signature.least = kThresholds.least_share * largest_in_bank(effect);
       signature.error = effect.beads ? kThresholds.error_of_beads : kThresholds.response_error;
-      if (effect.reads_only()) add_true_strains(signature);
+      if (effect.reads_only() && !effect.lengths) add_true_strains(signature);
       found_.signatures.push_back(std::move(signature));
     }
   }

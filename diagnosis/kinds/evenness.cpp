@@ -20,7 +20,7 @@ Eigen::RowVectorXd terms(const Columns& places, std::size_t pair) {
   return row;
 }
 
-/// Rows beside the commonest value: all of them where values are no states.
+/// How many rows have the rarer of two states; all rows where values are no states.
 std::size_t rarer(const std::vector<double>& values, const std::vector<std::size_t>& rows) {
   const auto states = [&](double state) {
     return static_cast<std::size_t>(

@@ -10,8 +10,8 @@ namespace pendular::diagnosis {
 /// direction to the axis.
 inline constexpr const char* kPlaceColumns[] = {"across_x", "across_y", "along_z", "cosine"};
 
-/// Probability that values, one per pair, depend on place and direction by no more than they do, where
-/// chance is alike everywhere: Rao's score test (1948) of a regression on the place's coordinates, their
+/// Probability that chance alone, which is alike everywhere, makes values, one per pair, depend on place and
+/// direction as much as these do: Rao's score test (1948) of a regression on the place's coordinates, their
 /// squares and products, and the squared cosine, n R² against χ². For values of 0 and 1 as for normal ones.
 /// NaN rows do not count. 1 where fewer than `least` are left, or, of 0 and 1, are of the rarer, and where
 /// what depends on place has a root mean square of no more than `tolerated`.

@@ -37,7 +37,8 @@ struct UsualMeasurement {
 };
 
 /// Where the strain that an observation states comes from. The machine's may be read wrongly; of a gauge's
-/// and a scan's it is not stated whether they are the machine's or measured on the specimen.
+/// and a scan's it is not stated whether they are the machine's or measured on the specimen. Of kinds without
+/// a strain it says nothing.
 enum class StrainBy { machine, gauge, scan };
 
 /// What an observation shows that no effect of the library brings about, and how probable it is by chance.
