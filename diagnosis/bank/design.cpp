@@ -182,7 +182,7 @@ std::pair<BankPlan, std::vector<SimulatedTests>> with_readings(const BankPlan& p
         SimulatedTests all_read;
         for (const auto& test : tests[k]) {
           auto read = test ? std::make_shared<SimulatedTest>(*test) : nullptr;
-          if (read) effect.rows(read->rows, read->gauge, theta), read_frames(effect, theta, *read);
+          if (read) read_test(effect, theta, *read);
           all_read.push_back(std::move(read));
         }
         bank.first.points.push_back(point);

@@ -88,7 +88,7 @@ bool holds(const AmbiguitySet& set, const std::string& id) {
 }
 
 double upper_limit(const Hypothesis& effect, const Correction& correction) {
-  const auto& [mean, interval] = effect.magnitudes.front();
+  const auto& [mean, interval, reading] = effect.magnitudes.front();
   const double wider = correction.of_all.of(effect.id) / correction.widening.of(effect.id);
   return correction.widening_of_limits * std::max(std::fabs(mean + wider * (interval.first - mean)),
                                                   std::fabs(mean + wider * (interval.second - mean)));
@@ -107,7 +107,7 @@ std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction
   for (std::size_t k = 0; k < said.size(); ++k) {
     said[k].probability = std::exp(logs[k] - total);
     const double widening = correction.widening.of(said[k].id);
-    for (auto& [mean, interval] : said[k].magnitudes)
+    for (auto& [mean, interval, reading] : said[k].magnitudes)
       interval = {mean + widening * (interval.first - mean), mean + widening * (interval.second - mean)};
   }
   if (by_misfits) weigh_unknown_by_misfits(said, correction);

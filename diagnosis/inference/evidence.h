@@ -28,6 +28,7 @@ struct Priors {
 struct Magnitude {
   double mean = 0.0;  ///< of θ a posteriori
   std::pair<double, double> interval_90 = {0, 0};
+  std::size_t reading = 0;  ///< the most probable one of the effect's (Signature::response())
 };
 
 /// The explanation that stands for all pairs that were not run (corrected()).

@@ -27,10 +27,11 @@ const Signature* signature_of(const Comparison& comparison, const std::string& i
 }
 
 /// What magnitudes leave of the gap.
-Eigen::VectorXd left_by(const Comparison& comparison, const Changes& changes) {
+Eigen::VectorXd left_by(const Comparison& comparison, const Magnitudes& magnitudes) {
   Eigen::VectorXd left = comparison.gap.values;
-  for (const auto& [id, theta] : changes)
-    if (const Signature* signature = signature_of(comparison, id)) left -= signature->at(theta);
+  for (const auto& [id, m] : magnitudes)
+    if (const Signature* signature = signature_of(comparison, id))
+      left -= signature->response(m.mean, m.reading).at(m.mean);
   return left;
 }
 
@@ -99,7 +100,7 @@ std::string why_excluded(const Problem& problem, const Hypothesis& h, double chi
   const double theta = h.magnitudes.front().mean;
   const std::string unit = effects::find_effect(h.id, "diagnosis").unit;
   return fmt::format("at its best magnitude, {}, {}", quantity(theta, h.magnitudes.front().interval_90, unit),
-                     worst_of(problem.landmarks, left_by(problem.landmarks, {{h.id, theta}})));
+                     worst_of(problem.landmarks, left_by(problem.landmarks, {{h.id, h.magnitudes.front()}})));
 }
 
 /// What is unknown may do to a curve what a known effect does, but hardly to thousands of displacements.
@@ -218,7 +219,7 @@ void set_groups(const Problem& problem, const Experiment& experiment, Diagnosis&
 }
 
 /// Posterior of the believed inputs once the best explanation is taken off the gap.
-void set_pulls(const Comparison& readings, const Changes& best, const Experiment& experiment,
+void set_pulls(const Comparison& readings, const Magnitudes& best, const Experiment& experiment,
                Diagnosis& diagnosis) {
   const Gap& gap = readings.gap;
   const Eigen::MatrixXd covariance = whole_covariance(gap);
@@ -269,20 +270,41 @@ void set_signatures(const Problem& problem, Diagnosis& diagnosis) {
 
 }  // namespace
 
-Changes fitted_changes(const Problem& problem, const std::vector<std::string>& ids,
-                       const std::vector<std::size_t>& observations) {
+Magnitudes fitted_magnitudes(const Problem& problem, const std::vector<std::string>& ids,
+                             const std::vector<std::size_t>& observations) {
   const auto features = features_from(problem.readings, observations);
   std::vector<Signature> signatures;
   for (const auto& id : ids) signatures.push_back(*signature_of(problem.readings, id));
   if (signatures.empty() || features.empty()) return {};
   std::string name = ids.front();
   for (std::size_t k = 1; k < ids.size(); ++k) name += "+" + ids[k];
-  Changes changes;
+  Magnitudes found;
   for (const auto& h : weigh(part_of(problem.readings.gap, features), part_of(signatures, features),
                              part_of(problem.readings.together, features))) {
     if (h.id != name) continue;
-    for (std::size_t k = 0; k < ids.size(); ++k) changes[ids[k]] = h.magnitudes[k].mean;
+    for (std::size_t k = 0; k < ids.size(); ++k) found[ids[k]] = h.magnitudes[k];
   }
+  return found;
+}
+
+std::set<std::size_t> truly_strained(const Comparison& comparison, const Magnitudes& magnitudes) {
+  std::set<std::size_t> found;
+  for (const auto& [id, m] : magnitudes) {
+    const Signature* signature = signature_of(comparison, id);
+    if (!signature || m.reading == 0) continue;
+    const Eigen::VectorXd by_machine = signature->at(m.mean),
+                          read = signature->response(m.mean, m.reading).at(m.mean);
+    for (std::size_t f = 0; f < comparison.observed.features.size(); ++f) {
+      const auto at = static_cast<Eigen::Index>(f);
+      if (by_machine[at] != 0.0 && read[at] == 0.0) found.insert(comparison.observed.observation[f]);
+    }
+  }
+  return found;
+}
+
+Changes changes_of(const Magnitudes& magnitudes) {
+  Changes changes;
+  for (const auto& [id, m] : magnitudes) changes[id] = m.mean;
   return changes;
 }
 
@@ -316,7 +338,7 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   set_groups(problem, experiment, diagnosis);
   std::vector<std::size_t> all(experiment.observations.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  set_pulls(readings, fitted_changes(problem, effects_in(best.id), all), experiment, diagnosis);
+  set_pulls(readings, fitted_magnitudes(problem, effects_in(best.id), all), experiment, diagnosis);
   set_law(experiment, diagnosis);
 }
 

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/inference/problem.h"
 
@@ -22,9 +27,18 @@ struct Rules {
 void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, const Experiment& experiment,
            Diagnosis& diagnosis);
 
-/// Best magnitudes of a hypothesis for the readings of some observations: a single effect or a pair by the
-/// ids in `ids`. Means a posteriori; empty for none.
-Changes fitted_changes(const Problem& problem, const std::vector<std::string>& ids,
-                       const std::vector<std::size_t>& observations);
+/// Of some effects, by their ids.
+using Magnitudes = std::map<std::string, Magnitude>;
+
+/// Magnitudes of a hypothesis for the readings of some observations: a single effect or a pair by the ids in
+/// `ids`. Empty for none.
+Magnitudes fitted_magnitudes(const Problem& problem, const std::vector<std::string>& ids,
+                             const std::vector<std::size_t>& observations);
+
+/// Observations whose strains are those of the specimen, by the readings that effects have.
+std::set<std::size_t> truly_strained(const Comparison& comparison, const Magnitudes& magnitudes);
+
+/// Means a posteriori.
+Changes changes_of(const Magnitudes& magnitudes);
 
 }  // namespace pendular::diagnosis

@@ -249,13 +249,17 @@ Weighed MagnitudeGrid::weigh(const ReducedGap& gap, std::vector<Fitted> fitted, 
 Magnitude MagnitudeGrid::magnitude(std::size_t effect, const std::vector<Fitted>& fitted,
                                    double log_evidence) const {
   std::vector<std::pair<Cell, double>> cells;
+  std::vector<double> of_reading(reduced_[effect].readings(), 0.0);
   Magnitude found;
   for (const auto& one : fitted) {
     const double weight = std::exp(one.log_weight() - log_evidence);
     if (weight < kNoWeight) continue;
     cells.emplace_back(one.place().cells[effect], weight);
     found.mean += weight * cells.back().first.theta;
+    of_reading[cells.back().first.reading] += weight;
   }
+  found.reading =
+      static_cast<std::size_t>(std::max_element(of_reading.begin(), of_reading.end()) - of_reading.begin());
   const auto below = [&](double theta) {
     double sum = 0.0;
     for (const auto& [cell, weight] : cells)

@@ -67,6 +67,11 @@ void read_frames(const effects::Effect& effect, double theta, SimulatedTest& tes
   }
 }
 
+void read_test(const effects::Effect& effect, double theta, SimulatedTest& test) {
+  effect.rows(test.rows, test.gauge, theta);
+  read_frames(effect, theta, test);
+}
+
 const Frame& frame_near(const SimulatedTest& test, double strain) {
   if (test.frames.empty()) bad_input("{}: found no frames", (test.folder / "frames").string());
   return *std::min_element(test.frames.begin(), test.frames.end(), [&](const Frame& a, const Frame& b) {

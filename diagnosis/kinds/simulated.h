@@ -45,6 +45,8 @@ void end_at(double strain, SimulatedTest& test);
 /// Frames by the strain and the lengths that instruments with an effect show: a run's frames have the true
 /// ones.
 void read_frames(const effects::Effect& effect, double theta, SimulatedTest& test);
+/// Rows and frames of a test that was made without the effect.
+void read_test(const effects::Effect& effect, double theta, SimulatedTest& test);
 
 /// The frame whose platen strain, as the instruments read it, is nearest to this one. BadInput where the run
 /// kept none.

@@ -11,6 +11,7 @@
 #include "base/random.h"
 #include "diagnosis/experiment/specimens.h"
 #include "diagnosis/words.h"
+#include "effects/list.h"
 
 namespace pendular::diagnosis {
 namespace {
@@ -20,6 +21,7 @@ constexpr int kDraws = 1000;
 constexpr const char* kModulus = "bridges.youngs_modulus_pa";
 
 using Indices = std::vector<std::size_t>;
+using Observations = std::set<std::size_t>;
 
 Indices all_features(const Comparison& landmarks) {
   Indices all(landmarks.observed.features.size());
@@ -44,7 +46,35 @@ Indices observations_of(const Comparison& landmarks, const Indices& features) {
 struct Model {
   std::string name;
   std::function<Changes(const Indices&)> fit;
+  Observations truly_strained = {};  ///< observations whose strains are the specimen's own
 };
+
+/// Tests of one member, and what was changed in them.
+struct ChangedTests {
+  Changes changes;
+  SimulatedTests tests;
+};
+
+/// With what instruments make of them, and without.
+struct MemberTests {
+  ChangedTests by_machine, of_specimen;
+};
+
+bool only_read(const std::string& id) {
+  const effects::Effect* effect = effects::known_effect(id);
+  return effect && effect->reads_only();
+}
+
+Changes without_readings(Changes changes) {
+  std::erase_if(changes, [](const auto& change) { return only_read(change.first); });
+  return changes;
+}
+
+std::shared_ptr<const SimulatedTest> read_by_machine(SimulatedTest test, const Changes& changes) {
+  for (const auto& effect : effects::all_effects())
+    if (effect.reads_only() && changes.contains(effect.id)) read_test(effect, changes.at(effect.id), test);
+  return std::make_shared<const SimulatedTest>(std::move(test));
+}
 
 /// Only the polymer's modulus, by generalised least squares on its logarithm, unbounded.
 Changes retuned_modulus(const RepairInputs& inputs, const Indices& features) {
@@ -96,29 +126,32 @@ class Bench {
   Bench(const RepairInputs& inputs, Diagnosis& diagnosis) : inputs_(inputs), diagnosis_(diagnosis) {}
 
   /// The gap that stays of some features with these changes: mean over the fresh members; the old one where
-  /// nothing is shown. In the place of the others stands what it was.
-  Eigen::VectorXd gap_with(const Changes& changes, const std::string& name, const Indices& features,
-                           bool overlay) {
+  /// nothing is shown. In the place of the others stands what it was. `truly_strained`: observations whose
+  /// strains are the specimen's own, not the machine's.
+  Eigen::VectorXd gap_with(const Changes& changes, const Observations& truly_strained,
+                           const std::string& name, const Indices& features, bool overlay) {
     const auto needed = conditions_for(features);
+    const Changes of_specimen = without_readings(changes);
     std::vector<sweep::RunRequest> requests;
     for (const int member : kFresh)
       for (const std::size_t c : needed)
         requests.push_back(request_of(inputs_.experiment, inputs_.plan.conditions[c], member,
-                                      static_cast<std::uint64_t>(member), changes, inputs_.packings));
+                                      static_cast<std::uint64_t>(member), of_specimen, inputs_.packings));
     const auto outcomes = inputs_.make_runs(name, requests);
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(inputs_.problem.landmarks.gap.values.size()), count = sum;
     auto outcome = outcomes.begin();
     for (std::size_t m = 0; m < std::size(kFresh); ++m) {
-      SimulatedTests tests(inputs_.plan.conditions.size());
+      MemberTests member{{changes, SimulatedTests(inputs_.plan.conditions.size())}, {}};
+      member.of_specimen = {of_specimen, member.by_machine.tests};
       for (const std::size_t c : needed) {
         book_run(*outcome, c, name + ": ", changes, diagnosis_.ledger);
-        tests[c] = read_run(*outcome++, changes);
+        const auto test = member.of_specimen.tests[c] = read_run(*outcome++, of_specimen);
+        member.by_machine.tests[c] = test ? read_by_machine(*test, changes) : nullptr;
       }
-      const Eigen::VectorXd values = simulated_features(inputs_.experiment, inputs_.plan.conditions,
-                                                        inputs_.problem.landmarks.observed, tests, changes);
+      const Eigen::VectorXd values = features_of(member, truly_strained);
       for (Eigen::Index f = 0; f < values.size(); ++f)
         if (std::isfinite(values[f])) sum[f] += values[f], count[f] += 1.0;
-      if (overlay) add_overlays(tests, changes);
+      if (overlay) add_overlays(member, truly_strained);
     }
     Eigen::VectorXd gap = inputs_.problem.landmarks.gap.values;
     const Eigen::VectorXd observed = inputs_.problem.landmarks.observed.values();
@@ -135,7 +168,8 @@ class Bench {
       Indices others;
       for (const std::size_t f : all_features(inputs_.problem.landmarks))
         if (std::find(part.begin(), part.end(), f) == part.end()) others.push_back(f);
-      const Eigen::VectorXd left = gap_with(model.fit(others), model.name + " on withheld data", part, false);
+      const Eigen::VectorXd left =
+          gap_with(model.fit(others), model.truly_strained, model.name + " on withheld data", part, false);
       for (const std::size_t f : part) gap[static_cast<Eigen::Index>(f)] = left[static_cast<Eigen::Index>(f)];
     }
     return gap(std::vector<Eigen::Index>(withheld.begin(), withheld.end()));
@@ -156,11 +190,28 @@ class Bench {
     return needed;
   }
 
-  void add_overlays(const SimulatedTests& tests, const Changes& changes) {
-    for (std::size_t index = 0; index < diagnosis_.overlays.size(); ++index)
+  Eigen::VectorXd features_of(const MemberTests& member, const Observations& truly_strained) const {
+    const ObservedFeatures& observed = inputs_.problem.landmarks.observed;
+    const auto values_of = [&](const ChangedTests& changed) {
+      return simulated_features(inputs_.experiment, inputs_.plan.conditions, observed, changed.tests,
+                                changed.changes);
+    };
+    Eigen::VectorXd values = values_of(member.by_machine);
+    if (truly_strained.empty()) return values;
+    const Eigen::VectorXd true_values = values_of(member.of_specimen);
+    for (Eigen::Index f = 0; f < values.size(); ++f)
+      if (truly_strained.contains(observed.observation[static_cast<std::size_t>(f)]))
+        values[f] = true_values[f];
+    return values;
+  }
+
+  void add_overlays(const MemberTests& member, const Observations& truly_strained) {
+    for (std::size_t index = 0; index < diagnosis_.overlays.size(); ++index) {
+      const auto& [changes, tests] = truly_strained.contains(index) ? member.of_specimen : member.by_machine;
       if (auto columns =
               simulated_columns(inputs_.experiment, inputs_.plan.conditions, index, tests, changes))
         diagnosis_.overlays[index].repaired.push_back(std::move(*columns));
+    }
   }
 
   const RepairInputs& inputs_;
@@ -248,7 +299,7 @@ Shrinkage shrinkage_of(const Gap& before, const Eigen::VectorXd& after) {
 Shrinkage shrinkage_by(const RepairInputs& inputs, const Changes& changes, Diagnosis& diagnosis) {
   const Compared compared = compared_features(inputs);
   const Eigen::VectorXd left =
-      Bench(inputs, diagnosis).gap_with(changes, "true effect", compared.features, false);
+      Bench(inputs, diagnosis).gap_with(changes, {}, "true effect", compared.features, false);
   return shrinkage_on(inputs, compared, left(positions(compared.features)));
 }
 
@@ -274,13 +325,18 @@ void measure_shrinkage(const RepairInputs& inputs, Diagnosis& diagnosis) {
   Bench bench(inputs, diagnosis);
   const Indices all = all_features(landmarks);
   const auto effect_model = [&](const std::string& name, const std::vector<std::string>& effects) {
-    return Model{name, [&problem, &landmarks, effects](const Indices& features) {
-                   return fitted_changes(problem, effects, observations_of(landmarks, features));
-                 }};
+    return Model{
+        name,
+        [&problem, &landmarks, effects](const Indices& features) {
+          return changes_of(fitted_magnitudes(problem, effects, observations_of(landmarks, features)));
+        },
+        truly_strained(
+            problem.readings,
+            fitted_magnitudes(problem, effects, observations_of(landmarks, all_features(landmarks))))};
   };
   const Model best = effect_model("repaired", ids);
   const Compared compared = compared_features(inputs);
-  const Eigen::VectorXd left = bench.gap_with(best.fit(all), best.name, all, true);
+  const Eigen::VectorXd left = bench.gap_with(best.fit(all), best.truly_strained, best.name, all, true);
   diagnosis.fitted = shrinkage_on(inputs, compared, left(positions(compared.features)));
   if (compared.parts.empty()) return;
   const auto withheld = [&](const Model& model) {
@@ -289,9 +345,10 @@ void measure_shrinkage(const RepairInputs& inputs, Diagnosis& diagnosis) {
   diagnosis.withheld = withheld(best);
   if (diagnosis.withheld.nothing_to_close) return;
   warn_of_contradiction(diagnosis);
-  diagnosis.retuned = withheld({"modulus retuned",
-                                [&](const Indices& features) { return retuned_modulus(inputs, features); }})
-                          .fraction;
+  diagnosis.retuned =
+      withheld(
+          {"modulus retuned", [&](const Indices& features) { return retuned_modulus(inputs, features); }, {}})
+          .fraction;
   diagnosis.wrong_effect = wrong_effect_of(diagnosis);
   if (!diagnosis.wrong_effect.empty())
     diagnosis.wrong = withheld(effect_model("wrong effect", {diagnosis.wrong_effect})).fraction;

@@ -350,7 +350,7 @@ TEST(Calibration, EffectsOnTablesOfBeadsWidenNoOthers) {
     for (auto& h : one.said)
       if (h.id == "c") {
         h.id = "position_error";
-        auto& [mean, interval] = h.magnitudes.front();
+        auto& [mean, interval, reading] = h.magnitudes.front();
         mean -= 5.0, interval.first -= 5.0, interval.second -= 5.0;
       }
   }

@@ -4,7 +4,9 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <sstream>
 
 #include "base/error.h"
 #include "effects/list.h"
@@ -30,8 +32,22 @@ class Diagnose : public ::testing::Test {
     further += "[[observation]]\nkind = \"coordination\"\nname = \"Z\"\nfile = \"z.csv\"\n";
   }
 
+  /// A curve with strains of a machine that gives way, of the toy's 2 mm² and 2 mm.
+  std::string read_by_the_machine(const std::string& curve) const {
+    std::istringstream lines(curve);
+    std::string text, line;
+    std::getline(lines, text);
+    text += '\n';
+    while (std::getline(lines, line)) {
+      const std::size_t first = line.find(',');
+      const double strain = std::stod(line), stress = std::stod(line.substr(first + 1));
+      text += fmt::format("{}{}\n", strain + 1e-9 * compliance * stress, line.substr(first));
+    }
+    return text;
+  }
+
   Diagnosis diagnosed() {
-    write_text(folder / "A.csv", nature.curve_text(truth, 999));
+    write_text(folder / "A.csv", read_by_the_machine(nature.curve_text(truth, 999)));
     write_text(folder / "experiment.toml",
                "[experiment]\nname = \"toy\"\nsample = \"sample.toml\"\n"
                "[uncertainty]\n\"bridges.youngs_modulus_pa\" = 4.5e4\n"
@@ -39,12 +55,14 @@ class Diagnose : public ::testing::Test {
                    further);
     const Experiment experiment = read_experiment(folder / "experiment.toml");
     const fs::path beads = folder / "beads";
-    return diagnose(experiment, plan_bank(experiment, {}, beads), beads, std::ref(simulation));
+    return diagnose(experiment, plan_bank(experiment, {}, beads), beads, std::ref(simulation), rules);
   }
 
   ScratchFolder folder;
   Sample truth;
   std::string further;
+  Rules rules;
+  double compliance = 0.0;  ///< of the machine that reads the curve, um/N
   test::ToyRuns simulation{folder / "runs"}, nature{folder / "nature"};
 };
 
@@ -128,6 +146,29 @@ TEST_F(Diagnose, SaysNothingIsMissingWhereNothingIs) {
   const Diagnosis found = diagnosed();
   EXPECT_EQ(found.explanations.front().id, "none");
   EXPECT_EQ(found.fitted.fraction, 0.0);
+}
+
+// A gauge on the specimen reads true strains, the machine those of its own frame as well: 7 um/N on 2 mm²
+// and 2 mm. Read by the machine, the gauge's ratio would be a tenth too small.
+TEST_F(Diagnose, FreshRunsTakeStrainsAsTheyAreReadBest) {
+  nature.lateral_ratio = simulation.lateral_ratio = 0.6;
+  std::string gauge = "strain,lateral_strain,sigma\n";
+  for (int k = 1; k <= 50; ++k) gauge += fmt::format("{},{},1e-4\n", 0.001 * k, 0.0006 * k);
+  write_text(folder / "gauge.csv", gauge);
+  further += "[[observation]]\nkind = \"lateral_strain\"\nname = \"gauge\"\nfile = \"gauge.csv\"\n";
+  compliance = 7.0;
+  rules.priors.misfit.odds = 0.0;  // what is left of the toy's replays is less than that of any experiment
+  const Diagnosis found = diagnosed();
+  const Explanation& best = found.explanations.front();
+  ASSERT_EQ(best.id, "machine_compliance");
+  EXPECT_NEAR(best.magnitudes.front().mean, 7.0, 1.0);
+  EXPECT_NE(best.magnitudes.front().reading, 0u);
+  EXPECT_GT(found.fitted.fraction, 0.9);
+  EXPECT_GT(found.withheld.fraction, 0.9);
+  const Columns &curve_repaired = found.overlays.at(0).repaired.at(0),
+                &gauge_repaired = found.overlays.at(1).repaired.at(0);
+  EXPECT_LT(gauge_repaired.at("strain").back(), curve_repaired.at("strain").back());
+  EXPECT_NEAR(gauge_repaired.at("lateral_strain").back() / gauge_repaired.at("strain").back(), 0.6, 1e-9);
 }
 
 TEST_F(Diagnose, KnowsThatItDoesNotKnow) {

@@ -110,6 +110,8 @@ TEST(Evidence, OfTwoReadingsIsTheirMean) {
   const double mean =
       (of_steep * steep.magnitudes[0].mean + of_flat * flat.magnitudes[0].mean) / (of_steep + of_flat);
   EXPECT_NEAR(either.magnitudes[0].mean, mean, 0.02);
+  EXPECT_EQ(either.magnitudes[0].reading, of_steep > of_flat ? 0u : 1u);
+  EXPECT_EQ(of_slopes({0.5, 2.0}).magnitudes[0].reading, of_steep > of_flat ? 1u : 0u);
 }
 
 TEST(Evidence, ResponsesOfExactFeaturesHaveNoErrors) {

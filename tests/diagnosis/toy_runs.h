@@ -41,6 +41,7 @@ class ToyRuns {
   std::set<std::string> failing;
   /// Further factor of the modulus, which no effect makes.
   double unexplained = 1.0;
+  double lateral_ratio = 0.1;
 
   std::vector<sweep::RunOutcome> operator()(const std::string&, std::span<const sweep::RunRequest> requests) {
     std::vector<sweep::RunOutcome> outcomes;
@@ -60,7 +61,7 @@ class ToyRuns {
       const double line = modulus * 0.5 * (beyond + std::hypot(beyond, 0.004));
       const double fall = std::pow(strain / (0.08 * (1.0 + 0.2 * friction)), 8.0);
       const double noise = 1.0 + 0.002 * random_normal(seed, 10 + static_cast<std::uint64_t>(k));
-      text += fmt::format("{},{},0,{}\n", strain, line * std::exp(-fall) * noise, 0.1 * strain);
+      text += fmt::format("{},{},0,{}\n", strain, line * std::exp(-fall) * noise, lateral_ratio * strain);
     }
     return text;
   }
