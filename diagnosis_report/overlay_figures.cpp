@@ -81,6 +81,15 @@ viz::Series series_of(const Trace& trace, const OverlayView& view) {
   return {"", scaled(trace.x, view.x_scale), scaled(trace.y, view.y_scale), scaled(trace.sd, view.y_scale)};
 }
 
+/// Without what lies beyond the measured places, where the axes end: what a run does there would set their
+/// range.
+Trace up_to(double last, const Trace& trace) {
+  Trace kept;
+  for (std::size_t k = 0; k < trace.x.size(); ++k)
+    if (trace.x[k] <= last) kept.x.push_back(trace.x[k]), kept.y.push_back(trace.y[k]);
+  return kept;
+}
+
 viz::BandPlot plot_of(const OverlayView& view, const Trace& measured, const Trace& compared,
                       const std::vector<Spread>& spreads) {
   viz::BandPlot plot{view.x_title, view.y_title, "difference (" + view.residual_title + ")", {}, {}, {}, {}};
@@ -89,6 +98,7 @@ viz::BandPlot plot_of(const OverlayView& view, const Trace& measured, const Trac
   if (!view.measured_as_points && measured.x.size() > kDensePoints)
     plot.measured.look = viz::Series::Look::line;
   const auto x = scaled(compared.x, view.x_scale);
+  const double last = measured.x.empty() ? kNone : *std::max_element(measured.x.begin(), measured.x.end());
   for (const Spread& spread : spreads) {
     viz::Band band{spread.label, x, scaled(spread.low, view.y_scale), scaled(spread.mean, view.y_scale),
                    scaled(spread.high, view.y_scale)};
@@ -96,7 +106,7 @@ viz::BandPlot plot_of(const OverlayView& view, const Trace& measured, const Trac
                        less(spread.mean, compared.y, view.y_scale),
                        less(spread.high, compared.y, view.y_scale)};
     if (!view.measured_as_points)
-      for (const Trace& trace : spread.shown) band.lines.push_back(series_of(trace, view));
+      for (const Trace& trace : spread.shown) band.lines.push_back(series_of(up_to(last, trace), view));
     plot.bands.push_back(std::move(band));
     plot.residuals.push_back(std::move(residual));
   }
