@@ -120,6 +120,9 @@ struct Diagnosis {
   std::vector<GroupMagnitude> groups;
   std::vector<Pull> pulls;
   std::vector<FollowedReading> law;  ///< none where the cause has no name
+  /// Observations whose strains are taken as the specimen's own, where the cause is that the machine misreads
+  /// them.
+  std::vector<std::string> specimen_strains;
   Shrinkage fitted, withheld;
   double retuned = 0.0, wrong = 0.0;  ///< fractions of the withheld gap that the controls close
   std::string wrong_effect;           ///< of that control; empty: none was made

@@ -90,6 +90,12 @@ std::string which_law(const Diagnosis& diagnosis) {
                      joined(settings, kListed));
 }
 
+std::string whose_strains(const Diagnosis& diagnosis) {
+  if (diagnosis.specimen_strains.empty()) return "";
+  return fmt::format(" Strains of {} are taken as the specimen's own, not the machine's.",
+                     joined(diagnosis.specimen_strains, kListed));
+}
+
 /// One sentence: what, why, and what is expected of it.
 std::string what_next(const Diagnosis& diagnosis) {
   const auto& next = diagnosis.next;
@@ -190,8 +196,8 @@ std::string trust(const Diagnosis& diagnosis) {
 }  // namespace
 
 std::string verdict_of(const Diagnosis& diagnosis) {
-  std::string text = cause(diagnosis) + which_law(diagnosis) + what_next(diagnosis) + "\n" +
-                     where(diagnosis) + how_far(diagnosis);
+  std::string text = cause(diagnosis) + which_law(diagnosis) + whose_strains(diagnosis) +
+                     what_next(diagnosis) + "\n" + where(diagnosis) + how_far(diagnosis);
   if (const std::string last = trust(diagnosis); !last.empty()) text += "\n" + last;
   return text;
 }

@@ -274,6 +274,7 @@ ordered_json to_json(const Diagnosis& d) {
   json["groups"] = groups_of(d);
   json["pulls"] = pulls_of(d);
   json["law"] = law_of(d);
+  json["specimen_strains"] = d.specimen_strains;
   json["places"] = places_of(d);
   json["separation"] = {{"effects", d.effects}, {"squared_distance", rows_of(d.separation)}};
   json["noise_budget"] = noise_of(d);

@@ -338,7 +338,10 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   set_groups(problem, experiment, diagnosis);
   std::vector<std::size_t> all(experiment.observations.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  set_pulls(readings, fitted_magnitudes(problem, effects_in(best.id), all), experiment, diagnosis);
+  const Magnitudes fitted = fitted_magnitudes(problem, effects_in(best.id), all);
+  for (const std::size_t index : truly_strained(readings, fitted))
+    diagnosis.specimen_strains.push_back(experiment.observations[index].name);
+  set_pulls(readings, fitted, experiment, diagnosis);
   set_law(experiment, diagnosis);
 }
 

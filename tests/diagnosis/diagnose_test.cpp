@@ -162,7 +162,8 @@ TEST_F(Diagnose, FreshRunsTakeStrainsAsTheyAreReadBest) {
   const Explanation& best = found.explanations.front();
   ASSERT_EQ(best.id, "machine_compliance");
   EXPECT_NEAR(best.magnitudes.front().mean, 7.0, 1.0);
-  EXPECT_NE(best.magnitudes.front().reading, 0u);
+  EXPECT_EQ(found.specimen_strains, (std::vector<std::string>{"gauge"}));
+  EXPECT_NE(found.verdict.find("Strains of gauge are taken as the specimen's own"), std::string::npos);
   EXPECT_GT(found.fitted.fraction, 0.9);
   EXPECT_GT(found.withheld.fraction, 0.9);
   const Columns &curve_repaired = found.overlays.at(0).repaired.at(0),
