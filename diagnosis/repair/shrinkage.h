@@ -20,7 +20,8 @@ const Explanation* to_add(const Diagnosis& diagnosis);
 
 /// How far the explanation to_add() closes the gap, and how far two controls do: the polymer's modulus
 /// retuned freely, and the most probable effect outside the ambiguity set. Magnitudes are fitted by the
-/// emulator; the figures are from fresh runs, on members that the bank does not have. Both figures are of the
+/// emulator; the figures are from fresh runs, on members that the bank does not have, of the specimen alone:
+/// what instruments do is read into them, strains as truly_strained() says. Both figures are of the
 /// same features, those that can be withheld: each test in turn, or where there is one test only each of its
 /// observations; of all where there is one observation. `fitted`: with the magnitude that all observations
 /// give. `withheld`: with the magnitude that the others give. Fills shrinkage, controls, overlays, warnings
