@@ -53,10 +53,10 @@ std::string name_and_id(const std::string& id) {
 std::string magnitudes_in_words(const Explanation& explanation) {
   std::string text;
   for (std::size_t k = 0; k < explanation.magnitudes.size(); ++k) {
-    const auto& [mean, interval, reading] = explanation.magnitudes[k];
+    const Magnitude& m = explanation.magnitudes[k];
     const std::string unit = k < explanation.units.size() ? explanation.units[k] : "";
     if (k > 0) text += " and ";
-    text += quantity(mean, interval, unit);
+    text += quantity(m.mean, m.interval_90, unit);
   }
   return text;
 }

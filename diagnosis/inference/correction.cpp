@@ -88,10 +88,11 @@ bool holds(const AmbiguitySet& set, const std::string& id) {
 }
 
 double upper_limit(const Hypothesis& effect, const Correction& correction) {
-  const auto& [mean, interval, reading] = effect.magnitudes.front();
+  const Magnitude& m = effect.magnitudes.front();
   const double wider = correction.of_all.of(effect.id) / correction.widening.of(effect.id);
-  return correction.widening_of_limits * std::max(std::fabs(mean + wider * (interval.first - mean)),
-                                                  std::fabs(mean + wider * (interval.second - mean)));
+  return correction.widening_of_limits *
+         std::max(std::fabs(m.mean + wider * (m.interval_90.first - m.mean)),
+                  std::fabs(m.mean + wider * (m.interval_90.second - m.mean)));
 }
 
 std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction& correction) {
@@ -107,8 +108,9 @@ std::vector<Hypothesis> corrected(std::vector<Hypothesis> said, const Correction
   for (std::size_t k = 0; k < said.size(); ++k) {
     said[k].probability = std::exp(logs[k] - total);
     const double widening = correction.widening.of(said[k].id);
-    for (auto& [mean, interval, reading] : said[k].magnitudes)
-      interval = {mean + widening * (interval.first - mean), mean + widening * (interval.second - mean)};
+    for (Magnitude& m : said[k].magnitudes)
+      m.interval_90 = {m.mean + widening * (m.interval_90.first - m.mean),
+                       m.mean + widening * (m.interval_90.second - m.mean)};
   }
   if (by_misfits) weigh_unknown_by_misfits(said, correction);
   add_odds_by_itself(correction.odds_by_itself, said);

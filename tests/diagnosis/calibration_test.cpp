@@ -350,8 +350,8 @@ TEST(Calibration, EffectsOnTablesOfBeadsWidenNoOthers) {
     for (auto& h : one.said)
       if (h.id == "c") {
         h.id = "position_error";
-        auto& [mean, interval, reading] = h.magnitudes.front();
-        mean -= 5.0, interval.first -= 5.0, interval.second -= 5.0;
+        Magnitude& m = h.magnitudes.front();
+        m.mean -= 5.0, m.interval_90.first -= 5.0, m.interval_90.second -= 5.0;
       }
   }
   const Promise promise = promise_of(all, 0.95);
