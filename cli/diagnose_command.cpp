@@ -130,8 +130,10 @@ void add_diagnose(CLI::App& app) {
   auto* command = add_picture_command(app, "diagnose");
   command->add_option("file", options->file, "Experiment file (.toml)")->required();
   command->add_flag("--dry-run", options->dry_run, "Say how many runs there are and how long they take");
-  command->add_flag("--no-fresh-runs", options->no_fresh_runs,
-                    "Only say where and which; make no further runs that measure how far the gap shrinks");
+  command->add_flag(
+      "--no-fresh-runs", options->no_fresh_runs,
+      "Only say where and which; make no further runs that measure how far the gap shrinks, or tell\n"
+      "what further scans would show");
   auto* plan_flag =
       command->add_flag("--plan", options->plan,
                         "Make the runs that tell what further measurements would bring; of a sample, or an\n"

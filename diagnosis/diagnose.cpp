@@ -123,7 +123,8 @@ Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& 
                              plan,
                              bank.tests(),
                              packings,
-                             scope.plan ? &make_runs : nullptr,
+                             scope.plan || scope.fresh_runs ? &make_runs : nullptr,
+                             scope.plan ? kAnyStrain : kThresholds.short_test,
                              rules.priors,
                              rules.confidence,
                              experiment.observations.size()};

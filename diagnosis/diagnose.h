@@ -8,8 +8,8 @@ namespace pendular::diagnosis {
 
 /// What is run beside the bank.
 struct Scope {
-  bool fresh_runs = true;  ///< without, nothing is said of how far the gap shrinks
-  bool plan = false;       ///< runs of conditions that the bank lacks, to assess further measurements
+  bool fresh_runs = true;  ///< without, nothing is said of how far the gap shrinks, nor of further scans
+  bool plan = false;       ///< of all conditions that the bank lacks, to assess further measurements
 };
 
 /// Where an experiment and its simulation part, which effect causes it, how far it shrinks once that is

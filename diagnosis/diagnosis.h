@@ -72,7 +72,7 @@ struct NextExperiment {
   std::string why;
   double cost = 1.0;     ///< in units of one compression test
   Outlook outlook = {};  ///< once it is made; without cases where runs are missing
-  double gain = 0.0;     ///< entropy that it takes off, bits
+  double gain = 0.0;     ///< expected entropy that it takes off, bits (next_steps())
   std::size_t runs = 0;  ///< simulations that it still lacks, or that failed
 };
 

@@ -83,6 +83,8 @@ struct DiagnosisThresholds {
   // Runs at the leading explanations, further measurements, verdict.
   double pair_leads = 0.01, leads = 0.05;  ///< probabilities from which runs are made [development]
   double in_question = 0.02;  ///< probability from which a measurement is to tell it [development]
+  double short_test = 0.025;  ///< platen strain to which tests are run without being asked for, to assess
+                              ///< further measurements: scans at 1 and 2 % [definition]
   double gain = 0.02;         ///< bits below which nothing is gained [definition]
   double with_pairs =
       10.0;  ///< an effect may have so many times more in pairs and still be excluded [Judgement]

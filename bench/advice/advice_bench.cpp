@@ -1,10 +1,11 @@
 // Whether advice settles: from one compression curve, runs of a bank are taken for the truth, the best or the
 // worst of the ranked measurements is made, twice, and the set is looked at.
 //
-//   advice_bench EXPERIMENT.toml STORE [RUNS]
+//   advice_bench EXPERIMENT.toml STORE PENDULAR [RUNS]
 //
 // EXPERIMENT's first compression curve alone is known at the start; its runs must be in STORE (pendular
-// diagnose). Measurements that need further runs are not offered.
+// diagnose). Those of scans at 1 and 2 % are made there, as a diagnosis does, by the program PENDULAR;
+// measurements that need longer runs are not offered.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,7 +18,9 @@
 #include "diagnosis/experiment/further_measurements.h"
 #include "diagnosis/inference/calibration.h"
 #include "diagnosis/inference/judgement.h"
+#include "diagnosis/thresholds.h"
 #include "effects/list.h"
+#include "sweep/execute.h"
 
 namespace {
 
@@ -51,7 +54,10 @@ struct Outcome {
 
 class Bench {
  public:
-  Bench(Experiment curve, const fs::path& store) : curve_(std::move(curve)), bank_(curve_, store) {
+  Bench(Experiment curve, const fs::path& store, const fs::path& program)
+      : curve_(std::move(curve)), bank_(curve_, store), store_(store) {
+    how_.worker = {program, {"sweep-run"}};
+    how_.rows_suffice = true;
     for (const auto& effect : effects::all_effects())
       if (!bank_.plan.absent.contains(effect.id)) effects_.insert(effect.id);
   }
@@ -61,7 +67,9 @@ class Bench {
   /// All runs, diagnosed with what a state knows.
   const std::vector<Replayed>& replayed(const State& state) {
     auto& found = kept_[state.key];
-    if (found.empty()) found = knowing(replayed_with(hand(state), state.experiment, effects_), state.known);
+    if (found.empty())
+      found =
+          knowing(replayed_with(hand(state), state.experiment, effects_, "state", bank_.ledger), state.known);
     return found;
   }
 
@@ -101,11 +109,18 @@ class Bench {
   static constexpr double kConfidence = 0.95;
 
   BankInHand hand(const State& state) {
-    return {state.experiment, bank_.plan, bank_.tests, bank_.packings, nullptr, {}, kConfidence, 1};
+    return {state.experiment, bank_.plan,  bank_.tests,
+            bank_.packings,   &make_runs_, kThresholds.short_test,
+            Priors{},         kConfidence, 1};
   }
 
   Experiment curve_;
   bench::StoredBank bank_;
+  sweep::Store store_;
+  sweep::ExecuteOptions how_;
+  MakeRuns make_runs_ = [this](const std::string&, std::span<const sweep::RunRequest> requests) {
+    return sweep::execute(store_, requests, how_);
+  };
   std::set<std::string> effects_;
   std::map<std::string, std::vector<Replayed>> kept_;
 };
@@ -113,14 +128,14 @@ class Bench {
 }  // namespace
 
 int main(int count, char** words) {
-  if (count < 3) {
-    std::cerr << "advice_bench EXPERIMENT.toml STORE [RUNS]\n";
+  if (count < 4) {
+    std::cerr << "advice_bench EXPERIMENT.toml STORE PENDULAR [RUNS]\n";
     return 2;
   }
   Experiment experiment = read_experiment(words[1]);
   experiment.observations.resize(1);
-  Bench bench(experiment, words[2]);
-  const std::size_t wanted = count > 3 ? std::stoul(words[3]) : 24;
+  Bench bench(experiment, words[2], words[3]);
+  const std::size_t wanted = count > 4 ? std::stoul(words[4]) : 24;
   const auto start = bench.start();
   const std::size_t runs = bench.replayed(start).size();
   std::vector<std::size_t> open;

@@ -48,7 +48,9 @@ class Prospect {
   /// Runs that were not made, or failed.
   std::size_t missing() const { return runs_.size() + failed_; }
 
+  /// Makes what is missing, where all of it may be made.
   void make(const std::string& name, std::vector<LedgerRow>& ledger) {
+    if (made() || !may_be_made()) return;
     std::vector<sweep::RunRequest> requests;
     for (const auto& [point, condition] : runs_) {
       const DesignPoint& of = plan_.points[point];
@@ -81,6 +83,12 @@ class Prospect {
   }
 
  private:
+  bool may_be_made() const {
+    return bank_.make_runs && std::all_of(runs_.begin(), runs_.end(), [&](const BankPlan::Run& run) {
+             return plan_.conditions[run.condition].sample.compression.max_strain <= bank_.farthest;
+           });
+  }
+
   static bool is_effect(const DesignPoint& point) { return effects::known_effect(point.id) != nullptr; }
 
   /// The tests of a point that the bank has; the others are asked for.
@@ -154,6 +162,20 @@ bool settles_something(const FurtherMeasurement& measurement, const Question& qu
                      [&](const std::string& id) { return question.effects.contains(id); });
 }
 
+/// Bits gained where the effects of a measurement that tells for sure are found, each by itself, or ruled
+/// out.
+double gain_of(const FurtherMeasurement& measurement, const Question& question) {
+  double sum = 0.0, left = 0.0, bits = 0.0;
+  for (const auto& [id, probability] : question.probabilities) sum += probability;
+  const auto term = [&](double share) { return share > 0.0 ? -share * std::log2(share) : 0.0; };
+  for (const auto& [id, probability] : question.probabilities)
+    if (measurement.settles.contains(id))
+      bits += term(probability / sum);
+    else
+      left += probability / sum;
+  return bits + term(left);
+}
+
 double value(const NextExperiment& next) {
   return next.gain / (kRound + next.cost);
 }
@@ -203,14 +225,16 @@ Question question_before(const BankPlan& plan, const std::set<std::string>& abou
 }
 
 std::vector<Replayed> replayed_with(const BankInHand& bank, const Experiment& experiment,
-                                    const std::set<std::string>& effects) {
+                                    const std::set<std::string>& effects, const std::string& name,
+                                    std::vector<LedgerRow>& ledger) {
   Prospect prospect(bank, experiment, effects);
+  prospect.make(name, ledger);
   return prospect.made() ? prospect.replayed() : std::vector<Replayed>{};
 }
 
 NextSteps next_steps(const BankInHand& bank, const Question& question, std::vector<LedgerRow>& ledger) {
   NextSteps steps;
-  const auto now = replayed_with(bank, bank.experiment, question.effects);
+  const auto now = replayed_with(bank, bank.experiment, question.effects, "experiment", ledger);
   steps.now = outlook(now, question, bank.confidence);
   if (steps.now.cases == 0) return steps;
   for (const auto& measurement : further_measurements()) {
@@ -220,13 +244,15 @@ NextSteps next_steps(const BankInHand& bank, const Question& question, std::vect
       next.outlook = outlook(knowing(now, measurement.settles), question, bank.confidence);
     } else if (auto more = measurement.added(bank.experiment)) {
       Prospect prospect(bank, std::move(*more), question.effects);
-      if (bank.make_runs) prospect.make(measurement.name, ledger);
+      prospect.make(measurement.name, ledger);
       if (prospect.made()) next.outlook = outlook(prospect.replayed(), question, bank.confidence);
       if (next.outlook.cases == 0) next.runs = prospect.missing();
     } else {
       continue;
     }
-    next.gain = next.outlook.cases > 0 ? steps.now.entropy - next.outlook.entropy : 0.0;
+    next.gain = !measurement.added       ? gain_of(measurement, question)
+                : next.outlook.cases > 0 ? steps.now.entropy - next.outlook.entropy
+                                         : 0.0;
     if (next.runs > 0 || next.gain > kThresholds.gain) steps.experiments.push_back(std::move(next));
   }
   std::stable_sort(steps.experiments.begin(), steps.experiments.end(), better);

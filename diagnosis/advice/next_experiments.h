@@ -28,6 +28,9 @@ bool is_settled(const Diagnosis& diagnosis);
 /// Every effect of the plan alike, or those of `about` alone where it has any, and none.
 Question question_before(const BankPlan& plan, const std::set<std::string>& about);
 
+/// Platen strain of tests of any length.
+inline constexpr double kAnyStrain = 1.0;
+
 /// A bank, and what may be done to it.
 struct BankInHand {
   const Experiment& experiment;
@@ -35,20 +38,24 @@ struct BankInHand {
   const std::vector<SimulatedTests>& tests;  ///< of every point of the plan
   MemberPackings& packings;
   const MakeRuns* make_runs;  ///< nullptr: none is made
+  double farthest;            ///< platen strain to which tests that the bank lacks are run
   Priors priors;
   double confidence = 0.95;
   std::size_t measured = 0;  ///< observations of the experiment that were made; the others are planned
 };
 
 /// Every run of a bank without an effect or with one of some, diagnosed with all that an experiment on the
-/// same specimens has. Empty where the bank lacks runs of it.
+/// same specimens has. Conditions that the bank lacks are run, and booked in the ledger under a name, where
+/// that is allowed; empty where they are not.
 std::vector<Replayed> replayed_with(const BankInHand& bank, const Experiment& experiment,
-                                    const std::set<std::string>& effects);
+                                    const std::set<std::string>& effects, const std::string& name,
+                                    std::vector<LedgerRow>& ledger);
 
 /// What further measurements are expected to bring: each is added to the experiment as it would be planned,
 /// runs of the bank are taken for the truth, and diagnosed with it (replay()). Conditions that the bank lacks
-/// are run, and booked in the ledger, where that is allowed. A measurement that is not of a specimen tells
-/// for sure.
+/// are run for what is in question, and booked in the ledger, where that is allowed. A measurement that is
+/// not of a specimen finds its effects or rules them out: what it gains is of their probabilities as they
+/// are.
 NextSteps next_steps(const BankInHand& bank, const Question& question, std::vector<LedgerRow>& ledger);
 
 }  // namespace pendular::diagnosis

@@ -10,8 +10,9 @@ NextSteps plan_experiments(const Experiment& planned, const BankPlan& plan, cons
   MemberPackings packings(beads_folder);
   BankTests bank(make_runs, ledger);
   bank.make("bank", plan);
-  return next_steps({planned, plan, bank.tests(), packings, &make_runs, rules.priors, rules.confidence, 0},
-                    question_before(plan, about), ledger);
+  return next_steps(
+      {planned, plan, bank.tests(), packings, &make_runs, kAnyStrain, rules.priors, rules.confidence, 0},
+      question_before(plan, about), ledger);
 }
 
 }  // namespace pendular::diagnosis

@@ -43,11 +43,12 @@ def diagnose(experiment: PathLike | Mapping[str, Any], out: PathLike, *, levels:
              threads: int = 0) -> Diagnosis:
     """Where simulation and experiment part, which effect causes it, and how far the gap shrinks once it is added.
 
-    `experiment`: an experiment file, or what one holds as a mapping, in which `sample` may be a Sample and tables may be
-    structured arrays; it is then written to `out`. `levels`: magnitudes from which the response to an effect that draws
-    is learnt. `runs`: most runs at the explanations that lead. `confidence`: how often the set of explanations is to
-    hold the truth. `leave_out`: effects that are not considered. `fresh_runs`: measure how far the gap shrinks. `plan`:
-    assess further measurements, with the runs that this lacks. Effects added in Python take part; their runs are made in this process."""
+    `experiment`: an experiment file, or what one holds as a mapping, in which `sample` may be a Sample and tables may
+    be structured arrays; it is then written to `out`. `levels`: magnitudes from which the response to an effect that
+    draws is learnt. `runs`: most runs at the explanations that lead. `confidence`: how often the set of explanations
+    is to hold the truth. `leave_out`: effects that are not considered. `fresh_runs`: measure how far the gap shrinks,
+    and what further scans would tell. `plan`: assess further measurements, with the runs that this lacks. Effects
+    added in Python take part; their runs are made in this process."""
     from . import _pictures
 
     out = Path(out)
