@@ -56,7 +56,8 @@ void tell_cost(const DiagnoseOptions& options, const diagnosis::Experiment& expe
   const TemporaryFolder beads;
   const auto plan = diagnosis::plan_bank(experiment, bank_options(options), beads.path());
   say(fmt::format(
-      "{} tests to simulate, {} runs to learn the effects from, then some {} to check the best explanation",
+      "{} tests to simulate, {} runs to learn the effects from, then some {} to check the best explanation, "
+      "and short ones of further scans if several are left",
       plan.conditions.size(), plan.requests.size(), 8 * plan.conditions.size()));
   tell_work(options.making, options.common, plan.requests);
 }

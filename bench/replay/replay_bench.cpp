@@ -1,5 +1,5 @@
-// Every run of a bank diagnosed as if it had been measured (docs/diagnose.md, step 8): a row each, and what
-// the replay promises and takes.
+// Every run of a bank diagnosed as if it had been measured (docs/diagnose-method.md, step 8): a row each, and
+// what the replay promises and takes.
 //
 //   replay_bench EXPERIMENT.toml STORE > replayed.csv
 //

@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kSpacing = 1.0 / 6.0;  // of magnitudes in a bank, over its largest
 constexpr double kOfInterval = 3.29;    // standard deviations in an interval of 90 %
-constexpr double kRound = 0.5;          // cost of another round, whatever is measured in it
+constexpr double kRound = 2.0;          // cost of another round, whatever is measured in it
+constexpr double kBits = 0.1;           // what a bit is worth beside settling
 constexpr double kCases = 240.0;        // replayed at least
 
 bool same(const Condition& a, const Condition& b) {
@@ -176,14 +177,16 @@ double gain_of(const FurtherMeasurement& measurement, const Question& question) 
   return bits + term(left);
 }
 
-double value(const NextExperiment& next) {
-  return next.gain / (kRound + next.cost);
-}
-
-/// Those that lack runs last.
-bool better(const NextExperiment& a, const NextExperiment& b) {
-  if ((a.outlook.cases > 0) != (b.outlook.cases > 0)) return a.outlook.cases > 0;
-  return value(a) > value(b);
+/// Best value first; those that lack runs last.
+void rank(NextSteps& steps) {
+  const auto value = [&](const NextExperiment& next) {
+    return (next.outlook.settled - steps.now.settled + kBits * next.gain) / (kRound + next.cost);
+  };
+  const auto better = [&](const NextExperiment& a, const NextExperiment& b) {
+    const bool known_a = a.outlook.cases > 0, known_b = b.outlook.cases > 0;
+    return known_a != known_b ? known_a : known_a && value(a) > value(b);
+  };
+  std::stable_sort(steps.experiments.begin(), steps.experiments.end(), better);
 }
 
 }  // namespace
@@ -255,7 +258,7 @@ NextSteps next_steps(const BankInHand& bank, const Question& question, std::vect
                                          : 0.0;
     if (next.runs > 0 || next.gain > kThresholds.gain) steps.experiments.push_back(std::move(next));
   }
-  std::stable_sort(steps.experiments.begin(), steps.experiments.end(), better);
+  rank(steps);
   return steps;
 }
 
