@@ -53,6 +53,29 @@ class Planning : public ::testing::Test {
     return plan_bank(experiment, options, folder / "beads");
   }
 
+  /// Such a bank, run by the toy.
+  struct ToyBank {
+    explicit ToyBank(Planning& of)
+        : experiment(of.planned()),
+          plan(of.bank_of(experiment)),
+          make_runs(std::ref(of.simulation)),
+          packings(of.folder / "beads") {
+      bank.make("bank", plan);
+    }
+
+    NextSteps steps(const Question& question, const MakeRuns* runs, double farthest) {
+      return next_steps({experiment, plan, bank.tests(), packings, runs, farthest, {}, 0.95, 0}, question,
+                        ledger);
+    }
+
+    Experiment experiment;
+    BankPlan plan;
+    MakeRuns make_runs;
+    MemberPackings packings;
+    std::vector<LedgerRow> ledger = {};
+    BankTests bank{make_runs, ledger};
+  };
+
   ScratchFolder folder;
   Experiment beliefs;
   test::ToyRuns simulation{folder / "runs"};
@@ -107,54 +130,37 @@ TEST_F(Planning, BridgesCountedTellMissingOnesFromASofterPolymer) {
 }
 
 TEST_F(Planning, TestsThatTheBankLacksAreRunAsFarAsIsAllowed) {
-  const Experiment experiment = planned();
-  const BankPlan plan = bank_of(experiment);
-  std::vector<LedgerRow> ledger;
-  const MakeRuns make_runs = std::ref(simulation);
-  BankTests bank(make_runs, ledger);
-  bank.make("bank", plan);
-  const std::size_t before = ledger.size();
-  MemberPackings packings(folder / "beads");
-  const auto steps_with = [&](const MakeRuns* runs, double farthest) {
-    return next_steps({experiment, plan, bank.tests(), packings, runs, farthest, {}, 0.95, 0},
-                      question_before(plan, {"missing_bridges"}), ledger);
-  };
-  const double course = plan.conditions.front().sample.compression.max_strain;
-  for (const auto& steps : {steps_with(nullptr, kAnyStrain), steps_with(&make_runs, 0.9 * course)}) {
-    EXPECT_EQ(ledger.size(), before);
+  ToyBank toy(*this);
+  const Question question = question_before(toy.plan, {"missing_bridges"});
+  const std::size_t before = toy.ledger.size();
+  const double course = toy.plan.conditions.front().sample.compression.max_strain;
+  for (const auto& steps :
+       {toy.steps(question, nullptr, kAnyStrain), toy.steps(question, &toy.make_runs, 0.9 * course)}) {
+    EXPECT_EQ(toy.ledger.size(), before);
     ASSERT_NE(found(steps, "bridges per bead"), nullptr);
     EXPECT_EQ(found(steps, "bridges per bead")->runs, 0u);
     ASSERT_NE(found(steps, "a specimen of half the height"), nullptr);
     EXPECT_GT(found(steps, "a specimen of half the height")->runs, 30u);
     EXPECT_EQ(steps.experiments.back().outlook.cases, 0u);
   }
-  const auto steps = steps_with(&make_runs, course);
-  EXPECT_GT(ledger.size(), before + 30);
+  const auto steps = toy.steps(question, &toy.make_runs, course);
+  EXPECT_GT(toy.ledger.size(), before + 30);
   for (const auto& next : steps.experiments) EXPECT_EQ(next.runs, 0u) << next.observation;
 }
 
 TEST_F(Planning, WhatTellsForSureGainsTheEntropyOfWhatItTells) {
-  const Experiment experiment = planned();
-  const BankPlan plan = bank_of(experiment);
-  std::vector<LedgerRow> ledger;
-  const MakeRuns make_runs = std::ref(simulation);
-  BankTests bank(make_runs, ledger);
-  bank.make("bank", plan);
-  MemberPackings packings(folder / "beads");
+  ToyBank toy(*this);
   Question question;
   question.effects = {"missing_bridges", "bead_friction"};
   question.probabilities = {{"none", 0.2}, {"missing_bridges", 0.1}, {"bead_friction", 0.1}};
-  const auto steps = [&] {
-    return next_steps({experiment, plan, bank.tests(), packings, nullptr, 0.0, {}, 0.95, 0}, question,
-                      ledger);
-  };
-  const auto before = steps();
+  const auto before = toy.steps(question, nullptr, 0.0);
   const NextExperiment* slides = found(before, "sliding friction");
   ASSERT_NE(slides, nullptr);
   // A quarter, or three quarters: 1/4 log2 4 + 3/4 log2 4/3.
   EXPECT_NEAR(slides->gain, 0.25 * 2.0 + 0.75 * std::log2(4.0 / 3.0), 1e-12);
   question.probabilities["bead_friction"] = 0.0;
-  EXPECT_EQ(found(steps(), "sliding friction"), nullptr) << "nothing to tell";
+  const auto after = toy.steps(question, nullptr, 0.0);
+  EXPECT_EQ(found(after, "sliding friction"), nullptr) << "nothing to tell";
 }
 
 TEST(Outlook, WhoKnowsWhatIsThereIsLeftWithTheRest) {
