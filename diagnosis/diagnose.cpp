@@ -19,7 +19,7 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr int kRounds = 3;  // of runs at the leading explanations
+constexpr int kRounds = 6;  // of runs at the leading explanations
 
 /// The problem as the bank shows it once nothing new leads, or nothing more may be run.
 Problem followed_problem(const Experiment& experiment, MemberPackings& packings, const Rules& rules,
@@ -28,7 +28,10 @@ Problem followed_problem(const Experiment& experiment, MemberPackings& packings,
   Problem problem = problem_of(experiment, plan, bank.tests());
   for (int round = 0; round < kRounds; ++round) {
     const std::size_t before = plan.requests.size();
-    add_points(experiment, leading_points(problem, rules.priors, plan), packings, plan);
+    // What leads by itself comes first: two effects often do what one and wrong beliefs do together.
+    auto points = fitted_points(experiment, problem, rules.priors, plan);
+    if (points.empty()) points = leading_points(problem, rules.priors, plan);
+    add_points(experiment, points, packings, plan);
     const std::size_t added = plan.requests.size() - before;
     if (added == 0) break;
     plan.further -= static_cast<int>(added);

@@ -170,6 +170,14 @@ std::map<std::string, double> floating_inputs(const Experiment& experiment) {
   return inputs;
 }
 
+Changes without_readings(Changes changes) {
+  std::erase_if(changes, [](const auto& change) {
+    const effects::Effect* effect = effects::known_effect(change.first);
+    return effect && effect->reads_only();
+  });
+  return changes;
+}
+
 std::uint64_t draw_seed(int member, int draw) {
   return static_cast<std::uint64_t>(member) + 1000 * static_cast<std::uint64_t>(draw);
 }
@@ -206,7 +214,7 @@ sweep::RunRequest request_of(const Experiment& experiment, const Condition& cond
                              double size) {
   const Condition sized = smaller(condition, size);
   sweep::RunRequest request;
-  request.sample = changed_condition(experiment, sized, changes, size);
+  request.sample = changed_condition(experiment, sized, without_readings(changes), size);
   request.packing = packings.of(sized, member, request.sample);
   request.seed = seed;
   return request;

@@ -35,12 +35,14 @@ struct DesignPoint {
   std::uint64_t seed = 1;   ///< of what effects draw
   bool scans_only = false;  ///< only tests that end at a scan
   Changes changes = {};
+  bool at_fit =
+      false;  ///< as an explanation, `id`, fits best (fitted_points()); no response is learnt from it
 };
 
 struct BankOptions {
   int levels = 3;                   ///< magnitudes of each effect that draws; twice as many of the others
   std::set<std::string> leave_out;  ///< effects that are not considered
-  int runs = 96;                    ///< most that are made at the leading explanations (leading_points())
+  int runs = 160;                    ///< most that are made at the leading explanations (leading_points())
 };
 
 /// The runs from which responses to effects and believed inputs are learnt.
@@ -73,6 +75,9 @@ struct BankPlan {
 /// an effect out changes no other run.
 BankPlan plan_bank(const Experiment& experiment, const BankOptions& options, const fs::path& beads_folder);
 
+/// Those changes that a simulation takes: without effects that only change what instruments read.
+Changes without_readings(Changes changes);
+
 /// The seed of what effects draw. It does not follow the place of an effect in the list: runs stay those of a
 /// shorter or longer library.
 std::uint64_t draw_seed(int member, int draw);
@@ -85,7 +90,7 @@ void add_points(const Experiment& experiment, const std::vector<DesignPoint>& po
 std::vector<double> sizes_of(const std::vector<Condition>& conditions);
 
 /// The run of one condition with some changes, its specimen of the observed size times `size`; `seed` of what
-/// effects draw.
+/// effects draw. What only instruments read is no part of it (read_run()).
 sweep::RunRequest request_of(const Experiment& experiment, const Condition& condition, int member,
                              std::uint64_t seed, const Changes& changes, MemberPackings& packings,
                              double size = 1.0);

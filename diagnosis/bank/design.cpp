@@ -109,7 +109,8 @@ BankFeatures::Learnt BankFeatures::learn(std::vector<std::string>& warnings, int
     const auto at = static_cast<Eigen::Index>(f);
     int shown = 0, asked = 0;
     for (std::size_t k = 0; k < points_.size(); ++k)
-      if (points_[k].whole != scaled_ && !points_[k].scans_only && points_[k].member != but)
+      if (points_[k].whole != scaled_ && !points_[k].scans_only && !points_[k].at_fit &&
+          points_[k].member != but)
         ++asked, shown += std::isfinite(values[k][at]);
     if (std::isfinite(mean[at]) && shown >= kThresholds.shown_by * asked)
       kept.push_back(f);
@@ -127,9 +128,13 @@ BankFeatures::Learnt BankFeatures::learn(std::vector<std::string>& warnings, int
   learnt.design.observed = subset(observed, kept);
   learnt.design.by_noise = by_noise(learnt.kept);
   for (const auto& one : whole) learnt.design.whole.push_back(one(learnt.kept));
-  for (std::size_t k = 0; k < points_.size(); ++k)
-    if (points_[k].whole != scaled_ && points_[k].member != but)
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    if (points_[k].whole == scaled_ || points_[k].member == but) continue;
+    if (!points_[k].at_fit)
       learnt.design.runs.push_back(run_of(k, values[k](learnt.kept)));
+    else if (but == 0)
+      learnt.design.at_fit.push_back({run_of(k, values[k](learnt.kept)), points_[k].changes});
+  }
   return learnt;
 }
 
@@ -142,7 +147,7 @@ std::pair<Design, std::vector<KnownRun>> BankFeatures::held_out(int member, int 
   Learnt learnt = learn(ignored, member);
   std::vector<KnownRun> held;
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    if (points_[k].member != member || points_[k].whole == scaled_) continue;
+    if (points_[k].member != member || points_[k].whole == scaled_ || points_[k].at_fit) continue;
     for (int draw = 0; draw < draws; ++draw) {
       Eigen::VectorXd values = values_[k];
       for (std::size_t f = 0; f < fields_.size(); ++f) {

@@ -11,18 +11,20 @@
 
 namespace pendular::diagnosis {
 
+/// A run, and all that was changed in it.
+struct KnownRun {
+  DesignRun run;
+  Changes truth;
+};
+
 /// An observation and the runs from which responses to it are learnt, feature by feature.
 struct Design {
   ObservedFeatures observed;
   std::vector<DesignRun> runs;
+  std::vector<KnownRun> at_fit =
+      {};  ///< at best fits of explanations (DesignPoint::at_fit); none but with all members
   std::vector<Eigen::VectorXd> whole;  ///< as believed, of specimens of the observed size
   Eigen::VectorXd by_noise;  ///< what an error of a fifth in the stated errors of displacements does
-};
-
-/// A run that is taken for an experiment of known truth.
-struct KnownRun {
-  DesignRun run;  ///< its values with noise of its own in the fields
-  Changes truth;
 };
 
 /// The features of an experiment, and of every run of its bank.
@@ -36,7 +38,7 @@ class BankFeatures {
   Design design(std::vector<std::string>& warnings, int but = 0) const;
 
   /// The design without one member, and the runs of that member that show all of its features, as other
-  /// experiments would, each `draws` times.
+  /// experiments would, each `draws` times, with noise of their own in the fields.
   std::pair<Design, std::vector<KnownRun>> held_out(int member, int draws) const;
 
   /// Members whose tests go all the way.

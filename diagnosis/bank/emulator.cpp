@@ -66,14 +66,8 @@ std::vector<Group> groups_of(const std::vector<DesignRun>& runs, const Responses
                               [&](const Group& g) { return g.id == run.id && g.below == below; });
     if (group == groups.end())
       group = groups.insert(groups.end(), {run.id, run.draws, run.exact, below, {}, {}});
-    const auto own = std::find(responses.members.begin(), responses.members.end(), run.member);
-    Eigen::VectorXd baseline = responses.mean;
-    if (own != responses.members.end()) {
-      const Eigen::VectorXd offset = responses.offsets.row(own - responses.members.begin()).transpose();
-      baseline = offset.array().isFinite().select(offset, baseline);
-    }
     group->theta.push_back(run.theta);
-    group->change.push_back(run.values - baseline);
+    group->change.push_back(run.values - responses.baseline(run.member));
   }
   return groups;
 }
@@ -234,6 +228,13 @@ const Signature* Responses::find(const std::string& id) const {
   const auto found =
       std::find_if(signatures.begin(), signatures.end(), [&](const Signature& s) { return s.id == id; });
   return found == signatures.end() ? nullptr : &*found;
+}
+
+Eigen::VectorXd Responses::baseline(int member) const {
+  const auto own = std::find(members.begin(), members.end(), member);
+  if (own == members.end()) return mean;
+  const Eigen::VectorXd offset = offsets.row(own - members.begin()).transpose();
+  return offset.array().isFinite().select(offset, mean);
 }
 
 void Responses::add(const std::string& id, bool below, Response response) {

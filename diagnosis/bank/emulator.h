@@ -31,6 +31,8 @@ struct Responses {
   double dof = 0.0;                   ///< of the scatter
 
   const Signature* find(const std::string& id) const;
+  /// A member's features without any change; the members' mean where those are not known.
+  Eigen::VectorXd baseline(int member) const;
   /// Of one sign of an id, or of both.
   void add(const std::string& id, bool below, Response response);
 };

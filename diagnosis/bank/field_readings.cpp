@@ -185,7 +185,7 @@ FieldReader::FieldReader(const FieldBank& bank, const std::vector<DesignPoint>& 
   for (std::size_t s = 0; s < bank.scans.size(); ++s) {
     std::vector<BankField> learnt;
     for (std::size_t k = 0; k < bank.of_runs.size(); ++k)
-      if (bank.of_runs[k] && points[k].member != but)
+      if (bank.of_runs[k] && points[k].member != but && !points[k].at_fit)
         learnt.push_back(
             {points[k].member, points[k].id, points[k].theta, part_of(*bank.of_runs[k], bank.scans, s)});
     statistics_.emplace_back(bank.scans[s], learnt);

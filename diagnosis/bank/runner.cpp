@@ -16,8 +16,10 @@ std::shared_ptr<const SimulatedTest> read_run(const sweep::RunOutcome& outcome, 
   if (outcome.status != sweep::RunStatus::done) return nullptr;
   SimulatedTest test = read_simulated_test(outcome.folder);
   if (outcome.up_to) end_at(*outcome.up_to, test);
-  for (const auto& effect : effects::all_effects())
-    if (effect.rows && changes.contains(effect.id)) read_frames(effect, changes.at(effect.id), test);
+  for (const auto& effect : effects::all_effects()) {
+    if (!effect.rows || !changes.contains(effect.id)) continue;
+    (effect.reads_only() ? read_test : read_frames)(effect, changes.at(effect.id), test);
+  }
   return std::make_shared<const SimulatedTest>(std::move(test));
 }
 

@@ -19,7 +19,7 @@ using MakeRuns = std::function<std::vector<sweep::RunOutcome>(const std::string&
 void book_run(const sweep::RunOutcome& outcome, std::size_t condition, const std::string& made_for,
               const Changes& changes, std::vector<LedgerRow>& ledger);
 
-/// Reads a run that is done; nothing where it failed.
+/// Reads a run that is done, as instruments do with these changes (request_of()); nothing where it failed.
 std::shared_ptr<const SimulatedTest> read_run(const sweep::RunOutcome& outcome, const Changes& changes);
 
 /// "baseline", "missing_bridges 0.1", "bridges.youngs_modulus_pa -2 sd".

@@ -62,6 +62,18 @@ struct Together {
   double theta_a = 0.0, theta_b = 0.0;
   Eigen::VectorXd beyond;
   Eigen::MatrixXd error = {};  ///< covariance of that, from few runs; empty: none
+
+  /// By how much it has grown at magnitudes.
+  double grown(double at_a, double at_b) const { return at_a / theta_a * at_b / theta_b; }
+  Eigen::VectorXd at(double at_a, double at_b) const { return grown(at_a, at_b) * beyond; }
+};
+
+/// What runs at the best fit of an explanation, its believed inputs included, show beyond what responses add
+/// up to (at_fit()).
+struct AtFit {
+  std::string id;          ///< of the explanation
+  Eigen::VectorXd beyond;  ///< of the features
+  Eigen::MatrixXd error;   ///< covariance of that, from few runs
 };
 
 /// A gap to be explained. Features are logarithms of ratios or differences of strains; all in one order.
@@ -74,6 +86,7 @@ struct Gap {
   std::vector<double> outside = {};
   Eigen::MatrixXd believed;  ///< what one standard deviation of each believed input does: a column each
   std::vector<Eigen::Index> exact = {};  ///< features that do what effects say, with independent noise
+  std::vector<AtFit> at_fit = {};        ///< of explanations that were run as they fit
 };
 
 }  // namespace pendular::diagnosis

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/eigensystem.h"
 #include "base/quantile.h"
@@ -10,6 +11,7 @@
 #include "diagnosis/bank/law_readings.h"
 #include "diagnosis/bank/mean_row.h"
 #include "diagnosis/bank/model_error.h"
+#include "diagnosis/inference/at_fit.h"
 #include "diagnosis/inference/reduced_space.h"
 #include "diagnosis/kinds/kind.h"
 #include "diagnosis/kinds/tools.h"
@@ -18,6 +20,8 @@
 
 namespace pendular::diagnosis {
 namespace {
+
+constexpr std::size_t kLeastAtFit = 3;  // runs at a fit that say what it is off by
 
 double largest_in_bank(const effects::Effect& effect) {
   return std::max(std::fabs(effect.bank_from), std::fabs(effect.bank_to));
@@ -47,7 +51,9 @@ class Learner {
     set_together(responses);
     set_believed(responses);
     set_covariance(responses);
-    if (found_.observed.level == Level::readings) set_outside(responses);
+    if (found_.observed.level != Level::readings) return;
+    set_outside(responses);
+    set_at_fit(responses);
   }
 
   void set_signatures(const Responses& responses) {
@@ -92,7 +98,7 @@ class Learner {
       const Signature* both = responses.find(point.id);
       const bool known = std::any_of(found_.together.begin(), found_.together.end(),
                                      [&](const Together& t) { return t.a + "+" + t.b == point.id; });
-      if (point.changes.size() != 2 || !both || known) continue;
+      if (point.at_fit || point.changes.size() != 2 || !both || known) continue;
       Together pair{point.changes.begin()->first, point.changes.rbegin()->first,
                     point.changes.begin()->second, point.changes.rbegin()->second, both->at(1.0)};
       for (const auto& signature : found_.signatures) {
@@ -186,6 +192,44 @@ class Learner {
     }
   }
 
+  /// What responses to some changes add up to.
+  Eigen::VectorXd added_up(const Changes& changes, const Responses& responses) const {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(size());
+    for (const auto& [key, value] : changes) {
+      const Signature* effect = signature_of(key);
+      if (const Signature* response = effect ? effect : responses.find(key))
+        sum += response->at(value).unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; });
+    }
+    for (const auto& pair : found_.together)
+      if (changes.contains(pair.a) && changes.contains(pair.b))
+        sum += pair.at(changes.at(pair.a), changes.at(pair.b));
+    return sum;
+  }
+
+  void set_at_fit(const Responses& responses) {
+    std::map<std::string, std::vector<const KnownRun*>> explanations;
+    for (const auto& one : design_.at_fit)
+      if (one.run.values.allFinite()) explanations[one.run.id].push_back(&one);
+    if (explanations.empty()) return;
+    const ReducedSpace space(found_.gap, found_.signatures);
+    for (const auto& [id, runs] : explanations) {
+      if (runs.size() < kLeastAtFit) continue;
+      const Changes& changes = runs.front()->truth;
+      const Eigen::VectorXd expected = added_up(changes, responses);
+      Eigen::MatrixXd rows(static_cast<Eigen::Index>(runs.size()), size());
+      for (std::size_t r = 0; r < runs.size(); ++r)
+        rows.row(static_cast<Eigen::Index>(r)) =
+            (runs[r]->run.values - responses.baseline(runs[r]->run.member) - expected).transpose();
+      Eigen::MatrixXd drawn = Eigen::MatrixXd::Zero(space.size(), space.size());
+      for (const auto& [key, value] : changes)
+        if (const Signature* effect = signature_of(key)) {
+          const Response response = space.reduced(*effect).response(value);
+          if (response.draws.size() > 0) drawn += response.grown(value) * response.draws;
+        }
+      found_.gap.at_fit.push_back(at_fit(id, rows, drawn, space));
+    }
+  }
+
   const Signature* signature_of(const std::string& id) const {
     for (const auto& signature : found_.signatures)
       if (signature.id == id) return &signature;
@@ -207,6 +251,27 @@ double usual_magnitude(const effects::Effect& effect) {
 Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {
   const auto [values, vectors] = eigensystem(covariance);
   return vectors * values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
+Eigen::VectorXd left_by(const Comparison& comparison, const Magnitudes& magnitudes) {
+  Eigen::VectorXd left = comparison.gap.values;
+  for (const auto& signature : comparison.signatures)
+    if (const auto found = magnitudes.find(signature.id); found != magnitudes.end())
+      left -= signature.response(found->second.mean, found->second.reading).at(found->second.mean);
+  for (const auto& pair : comparison.together)
+    if (magnitudes.contains(pair.a) && magnitudes.contains(pair.b))
+      left -= pair.at(magnitudes.at(pair.a).mean, magnitudes.at(pair.b).mean);
+  for (const auto& run : comparison.gap.at_fit) {
+    const auto ids = effects_in(run.id);
+    if (ids.size() == magnitudes.size() &&
+        std::all_of(ids.begin(), ids.end(), [&](const std::string& id) { return magnitudes.contains(id); }))
+      left -= run.beyond;
+  }
+  return left;
+}
+
+Eigen::VectorXd pulls_of(const Gap& gap, const Eigen::VectorXd& left) {
+  return gap.believed.transpose() * whole_covariance(gap).llt().solve(left);
 }
 
 Comparison compare(const Experiment& experiment, const BankPlan& plan, const Design& design) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,16 @@ Comparison compare(const Experiment& experiment, const BankPlan& plan, const Des
 /// A |θ| of an effect that is usual, at which signatures and separations are told: half the largest of its
 /// bank.
 double usual_magnitude(const effects::Effect& effect);
+
+/// Of some effects, by their ids.
+using Magnitudes = std::map<std::string, Magnitude>;
+
+/// What an explanation, these effects, leaves of the gap.
+Eigen::VectorXd left_by(const Comparison& comparison, const Magnitudes& magnitudes);
+
+/// Means a posteriori of what the columns of gap.believed are responses to, in standard deviations, where
+/// this is left of the gap.
+Eigen::VectorXd pulls_of(const Gap& gap, const Eigen::VectorXd& left);
 
 /// A matrix whose product with its transpose is a covariance.
 Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "diagnosis/inference/at_fit.h"
 #include "diagnosis/inference/log_sum.h"
 #include "diagnosis/inference/magnitude_grid.h"
 #include "diagnosis/inference/weigher.h"
@@ -21,9 +22,10 @@ constexpr double kNegligible = 12.0;  // evidence of a pair, as a logarithm, bel
 constexpr double kLeading = 1.0;      // the same above it, from which a pair may displace a single effect
 constexpr double kLeastShare = 0.01, kStep = 1.25;  // of the magnitudes at which an effect is looked for
 
-Weighed none(const ReducedSpace& space, const ReducedGap& gap, bool beside) {
+Weighed none(const ReducedSpace& space, const AtFit* at_fit, const ReducedGap& gap, bool beside) {
   const Eigen::Index size = space.size();
-  const std::vector<Expected> nothing = {{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size)}};
+  std::vector<Expected> nothing = {{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size)}};
+  if (at_fit) nothing.front().add(*at_fit);
   Workspace room(size);
   const Predictions said = space.predict(nothing, 1.0, room);
   const Fits fits = space.fit(gap, responses_of(nothing), said, room);
@@ -118,6 +120,10 @@ Weigher::Weigher(const Gap& gap, const std::vector<Signature>& signatures,
       auto run = together_of(together, reduced_[a], reduced_[b], space_);
       pairs_.push_back({a, b, std::move(run)});
     }
+  for (AtFit one : gap.at_fit) {
+    one.beyond = space_.reduced(one.beyond), one.error = space_.reduced_covariance(one.error);
+    at_fit_.push_back(std::move(one));
+  }
 }
 
 bool Weigher::absent(const std::string& effect, double theta) const {
@@ -131,13 +137,13 @@ std::vector<std::vector<Hypothesis>> Weigher::of_singles(const std::vector<Reduc
   std::vector<std::optional<MagnitudeGrid>> grids(reduced_.size());
   std::vector<std::vector<std::vector<MagnitudeGrid::Fitted>>> fitted(reduced_.size());
   for_blocks(reduced_.size(), 1, [&](std::size_t e, std::size_t) {
-    grids[e].emplace(std::vector{reduced_[e]}, std::nullopt, space_);
+    grids[e].emplace(std::vector{reduced_[e]}, std::nullopt, at_fit_near({reduced_[e].id, "none"}), space_);
     fitted[e] = grids[e]->fit(gaps);
   });
   const bool beside = priors_.unknown > 0.0;
   std::vector<std::vector<Hypothesis>> all(gaps.size());
   for_blocks(gaps.size(), 1, [&](std::size_t k, std::size_t) {
-    std::vector<Weighed> known = {none(space_, gaps[k], beside)};
+    std::vector<Weighed> known = {none(space_, at_fit_of(at_fit_, "none"), gaps[k], beside)};
     double best = known.front().hypothesis.log_evidence;
     for (const auto& of_effect : fitted) best = std::max(best, MagnitudeGrid::evidence_of(of_effect[k]));
     for (std::size_t e = 0; e < grids.size(); ++e)
@@ -146,6 +152,22 @@ std::vector<std::vector<Hypothesis>> Weigher::of_singles(const std::vector<Reduc
     for (auto& one : known) all[k].push_back(std::move(one.hypothesis));
   });
   return all;
+}
+
+const AtFit* Weigher::at_fit_near(const std::vector<std::string>& ids) const {
+  for (const auto& id : ids)
+    if (const AtFit* found = at_fit_of(at_fit_, id)) return found;
+  return nullptr;
+}
+
+const AtFit* Weigher::at_fit_near(const Pair& pair, const std::vector<Hypothesis>& singles) const {
+  if (at_fit_.empty()) return nullptr;
+  const auto evidence_of = [&](const std::string& id) {
+    return std::find_if(singles.begin(), singles.end(), [&](const Hypothesis& h) { return h.id == id; })
+        ->log_evidence;
+  };
+  const std::string &a = reduced_[pair.a].id, &b = reduced_[pair.b].id;
+  return at_fit_near({a + "+" + b, evidence_of(a) < evidence_of(b) ? b : a, "none"});
 }
 
 bool Weigher::matters(const Pair& pair, const std::vector<Hypothesis>& singles) const {
@@ -167,7 +189,7 @@ void Weigher::add_pairs(const std::vector<ReducedGap>& gaps, double negligible,
       if (matters(pairs_[p], all[k])) places.push_back(k), theirs.push_back(gaps[k]);
     of_pairs[p].resize(gaps.size());
     if (places.empty()) return;
-    MagnitudeGrid grid({reduced_[a], reduced_[b]}, run, space_);
+    MagnitudeGrid grid({reduced_[a], reduced_[b]}, run, at_fit_near(pairs_[p], all[places.front()]), space_);
     auto fitted = grid.fit(theirs);
     const double less = run                        ? negligible
                         : which_ == Pairs::leading ? -kLeading

@@ -66,7 +66,9 @@ enum class Pairs { all, leading };
 /// those aside that are below its least one and less than two standard deviations from none. A response is
 /// known to a share of itself (Signature::error) and to Response::draws, at 0.4 to 2.5 times its standard
 /// deviations, and two responses are taken to add to 0.15 of their geometric mean, to 0.07 of it where they
-/// were run together.
+/// were run together. Where an explanation was run as it fits,
+/// Gap::at_fit is part of it; one that was not takes that of the nearest that was: a pair of its effect of
+/// more evidence, an effect of none.
 ///
 /// `unknown` is something beside what is known: none or a single effect leaves a residual 1.5, 2.5, 4 or 7
 /// times as large as noise does, within the span, outside it, or both; or (Priors::like_known) something that

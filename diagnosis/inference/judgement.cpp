@@ -26,15 +26,6 @@ const Signature* signature_of(const Comparison& comparison, const std::string& i
   return nullptr;
 }
 
-/// What magnitudes leave of the gap.
-Eigen::VectorXd left_by(const Comparison& comparison, const Magnitudes& magnitudes) {
-  Eigen::VectorXd left = comparison.gap.values;
-  for (const auto& [id, m] : magnitudes)
-    if (const Signature* signature = signature_of(comparison, id))
-      left -= signature->response(m.mean, m.reading).at(m.mean);
-  return left;
-}
-
 /// The feature that a residual leaves farthest off, in words.
 std::string worst_of(const Comparison& landmarks, const Eigen::VectorXd& left) {
   const Eigen::MatrixXd covariance = whole_covariance(landmarks.gap);
@@ -224,7 +215,7 @@ void set_pulls(const Comparison& readings, const Magnitudes& best, const Experim
   const Gap& gap = readings.gap;
   const Eigen::MatrixXd covariance = whole_covariance(gap);
   const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
-  const Eigen::VectorXd pull = gap.believed.transpose() * factor.solve(left_by(readings, best));
+  const Eigen::VectorXd pull = pulls_of(gap, left_by(readings, best));
   const Eigen::MatrixXd known = gap.believed.transpose() * factor.solve(gap.believed);
   const Eigen::VectorXd noise = gap.covariance.diagonal().cwiseSqrt();
   const auto sds = floating_inputs(experiment);

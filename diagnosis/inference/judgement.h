@@ -27,9 +27,6 @@ struct Rules {
 void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, const Experiment& experiment,
            Diagnosis& diagnosis);
 
-/// Of some effects, by their ids.
-using Magnitudes = std::map<std::string, Magnitude>;
-
 /// Magnitudes of a hypothesis for the readings of some observations: a single effect or a pair by the ids in
 /// `ids`. Empty for none.
 Magnitudes fitted_magnitudes(const Problem& problem, const std::vector<std::string>& ids,

@@ -10,8 +10,10 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr int kMembers = 4;                              // that each is run on
+constexpr int kMembers = 4, kMembersOfDraws = 8;         // that each is run on
 constexpr std::size_t kMostPairs = 4, kMostSingles = 2;  // at a time
+constexpr std::size_t kMostFits = 6;                     // likewise
+constexpr double kPullStep = 0.1, kFarthestPull = 2.0;   // standard deviations of what is believed
 constexpr double kPairSteps = 3.0, kSteps = 12.0;        // of a bank's range, to which magnitudes are rounded
 
 /// The nearest step of an effect's range in the bank, at least the first.
@@ -33,6 +35,52 @@ bool was_run(const BankPlan& plan, const Changes& changes) {
   });
 }
 
+/// Whether an effect of an explanation differs from draw to draw.
+bool draws(const std::string& id) {
+  const auto ids = effects_in(id);
+  return std::any_of(ids.begin(), ids.end(),
+                     [](const std::string& one) { return effects::find_effect(one, "diagnosis").draws; });
+}
+
+/// How many members have tests that go all the way.
+int members_of(const BankPlan& plan) {
+  int found = 0;
+  for (const auto& point : plan.points)
+    if (point.id.empty() && !point.scans_only) found = std::max(found, point.member);
+  return found;
+}
+
+/// Whether an explanation was run as it fits.
+bool run_at_fit(const BankPlan& plan, const std::string& id) {
+  return std::any_of(plan.points.begin(), plan.points.end(),
+                     [&](const DesignPoint& point) { return point.at_fit && point.id == id; });
+}
+
+/// The explanations that the bank knows, with probabilities among themselves: before pairs were run what they
+/// do looks unknown.
+std::vector<Hypothesis> known_explanations(const Problem& problem, Priors priors) {
+  priors.unknown = 0.0;
+  const Comparison& readings = problem.readings;
+  return weigh(readings.gap, readings.signatures, readings.together, priors);
+}
+
+/// What is changed where an explanation fits best: its effects, and what is believed as it has it.
+Changes fit_of(const Experiment& experiment, const Comparison& readings, const Hypothesis& h) {
+  Changes changes;
+  Magnitudes magnitudes;
+  const auto ids = effects_in(h.id);
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    magnitudes[ids[k]] = h.magnitudes[k], changes[ids[k]] = h.magnitudes[k].mean;
+  const Eigen::VectorXd pulls = pulls_of(readings.gap, left_by(readings, magnitudes));
+  const auto inputs = floating_inputs(experiment);
+  for (std::size_t c = 0; c < readings.inputs.size(); ++c) {
+    const double pull = std::round(pulls[static_cast<Eigen::Index>(c)] / kPullStep) * kPullStep;
+    if (inputs.contains(readings.inputs[c]) && pull != 0.0)
+      changes[readings.inputs[c]] = std::clamp(pull, -kFarthestPull, kFarthestPull);
+  }
+  return changes;
+}
+
 DesignPoint point_of(const Changes& changes, int member, bool whole) {
   DesignPoint point{
       member, changes.begin()->first, changes.begin()->second, whole, draw_seed(member, 0), false, changes};
@@ -44,12 +92,9 @@ DesignPoint point_of(const Changes& changes, int member, bool whole) {
 
 std::vector<DesignPoint> leading_points(const Problem& problem, const Priors& priors, const BankPlan& plan) {
   if (plan.further <= 0) return {};
-  const Comparison& readings = problem.readings;
-  Priors known = priors;  // before pairs were run what they do looks unknown
-  known.unknown = 0.0;
   std::vector<DesignPoint> points;
   std::size_t pairs = 0, singles = 0, runs = 0;
-  for (const auto& h : weigh(readings.gap, readings.signatures, readings.together, known)) {
+  for (const auto& h : known_explanations(problem, priors)) {
     const bool pair = h.magnitudes.size() == 2;
     if (h.magnitudes.empty() || h.probability < (pair ? kThresholds.pair_leads : kThresholds.leads)) continue;
     if (pair ? pairs == kMostPairs : singles == kMostSingles) continue;
@@ -68,6 +113,32 @@ std::vector<DesignPoint> leading_points(const Problem& problem, const Priors& pr
     ++(pair ? pairs : singles);
     for (int member = 1; member <= kMembers; ++member)
       points.push_back(point_of(changes, member, !plan.scaled()));
+  }
+  return points;
+}
+
+std::vector<DesignPoint> fitted_points(const Experiment& experiment, const Problem& problem,
+                                       const Priors& priors, const BankPlan& plan) {
+  auto known = known_explanations(problem, priors);
+  std::erase_if(known, [](const Hypothesis& h) { return h.magnitudes.size() == 2 && !h.run; });
+  double total = 0.0;
+  for (const auto& h : known) total += h.probability;
+  std::set<std::string> parts;  // of leading pairs, which are judged against them
+  for (const auto& h : known)
+    if (h.magnitudes.size() == 2 && h.probability > kThresholds.leads * total)
+      for (const auto& id : effects_in(h.id)) parts.insert(id);
+  std::vector<DesignPoint> points;
+  int left = plan.further;
+  std::size_t fits = 0;
+  for (const auto& h : known) {
+    const bool leads = h.probability > kThresholds.fit_leads * total || parts.contains(h.id);
+    if (h.id == "unknown" || !leads || run_at_fit(plan, h.id)) continue;
+    const int members = std::min(draws(h.id) ? kMembersOfDraws : kMembers, members_of(plan));
+    left -= members * static_cast<int>(plan.conditions.size());
+    if (left < 0 || ++fits > kMostFits) break;
+    const Changes changes = fit_of(experiment, problem.readings, h);
+    for (int member = 1; member <= members; ++member)
+      points.push_back({member, h.id, 1.0, !plan.scaled(), draw_seed(member, 0), false, changes, true});
   }
   return points;
 }

@@ -66,8 +66,8 @@ double MagnitudeGrid::Fitted::log_density(std::size_t effects) const {
 }
 
 MagnitudeGrid::MagnitudeGrid(std::vector<Signature> reduced, std::optional<Together> together,
-                             const ReducedSpace& space)
-    : reduced_(std::move(reduced)), together_(std::move(together)), space_(space) {}
+                             const AtFit* at_fit, const ReducedSpace& space)
+    : reduced_(std::move(reduced)), together_(std::move(together)), at_fit_(at_fit), space_(space) {}
 
 std::vector<std::vector<MagnitudeGrid::Fitted>> MagnitudeGrid::fit(std::span<const ReducedGap> gaps) {
   std::vector<Cells> all;
@@ -137,6 +137,7 @@ void MagnitudeGrid::fit(const std::vector<Cells>& all, std::span<const ReducedGa
       const Cells& cells = places[k].cells;
       here.push_back(of_effect(0, cells[0]));
       if (reduced_.size() > 1) here.back() = together(here.back(), of_effect(1, cells[1]), cells);
+      if (at_fit_) here.back().add(*at_fit_);
       batch.places.push_back(places[k]);
     }
     const auto responses = responses_of(here);
@@ -188,7 +189,7 @@ Expected MagnitudeGrid::together(const Expected& a, const Expected& b, const Cel
   found.dof = a.dof > 0.0 && b.dof > 0.0 ? std::min(a.dof, b.dof) : std::max(a.dof, b.dof);
   found.outside = a.outside + b.outside, found.drawn_outside = a.drawn_outside + b.drawn_outside;
   if (!together_) return found;
-  const double grown = cells[0].theta / together_->theta_a * cells[1].theta / together_->theta_b;
+  const double grown = together_->grown(cells[0].theta, cells[1].theta);
   found.response += grown * together_->beyond;
   if (together_->error.size() > 0) found.draws.emplace_back(&together_->error, grown * grown);
   return found;

@@ -25,11 +25,13 @@ double beside_unknown(const ReducedSpace& space, const ReducedGap& gap, const Pr
 
 /// One effect, or two together, over a grid of magnitudes. What each says is worked out once and compared
 /// with many gaps; cells are cut finer about the peak, since a field may say a magnitude far better than a
-/// grid over its range has cells. Keeps a reference to the space.
+/// grid over its range has cells. Keeps references to the space and to what was run at the fit.
 class MagnitudeGrid {
  public:
-  /// `reduced`: one signature, or two; `together`: of two that were run together, reduced, in their order.
-  MagnitudeGrid(std::vector<Signature> reduced, std::optional<Together> together, const ReducedSpace& space);
+  /// `reduced`: one signature, or two; `together`: of two that were run together, reduced, in their order;
+  /// `at_fit`: of the explanation, reduced; may be null.
+  MagnitudeGrid(std::vector<Signature> reduced, std::optional<Together> together, const AtFit* at_fit,
+                const ReducedSpace& space);
 
   struct Fitted;
   /// How the cells of the grid fit each gap, before any is cut. Valid as long as the grid.
@@ -74,6 +76,7 @@ class MagnitudeGrid {
 
   std::vector<Signature> reduced_;
   std::optional<Together> together_;
+  const AtFit* at_fit_;
   const ReducedSpace& space_;
   Batches batches_;
 };

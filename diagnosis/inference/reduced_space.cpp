@@ -79,6 +79,13 @@ ReducedGap ReducedSpace::gap(const Eigen::VectorXd& values) const {
   return {reduced(values), square, std::log(square)};
 }
 
+// The reducer is Qᵀ L⁻¹ of orthonormal directions Q and the noise's factor L: L Q is L Lᵀ times its
+// transpose.
+Eigen::VectorXd ReducedSpace::spanned(const Eigen::VectorXd& coordinates) const {
+  const Eigen::VectorXd pulled = reducer_.topRows(coordinates.size()).transpose() * coordinates;
+  return factor_.matrixL() * Eigen::VectorXd(factor_.matrixU() * pulled);
+}
+
 double ReducedSpace::outside(const Eigen::VectorXd& v) const {
   return std::max(0.0, whiten(v).squaredNorm() - reduced(v).squaredNorm());
 }

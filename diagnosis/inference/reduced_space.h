@@ -28,6 +28,12 @@ struct Expected {
   double dof = 0.0;            ///< degrees of freedom of that; 0: it is known
   double outside = 0.0;        ///< square outside the span
   double drawn_outside = 0.0;  ///< square outside the span of what runs differ by
+
+  /// What was run at the explanation's fit, reduced; its covariance is kept by reference.
+  void add(const AtFit& run) {
+    response += run.beyond;
+    draws.emplace_back(&run.error, 1.0);
+  }
 };
 
 /// Responses of as many explanations as there are lanes, or fewer, a component each.
@@ -68,6 +74,8 @@ class ReducedSpace {
   Signature reduced(Signature signature) const;
   ReducedGap gap(const Eigen::VectorXd& values) const;
   Eigen::Index size() const { return reducer_.rows(); }
+  /// The vector that has these coordinates, the first ones, and nothing in the others and outside the span.
+  Eigen::VectorXd spanned(const Eigen::VectorXd& coordinates) const;
   /// Of these directions, those in which responses have errors.
   Eigen::Index inexact() const { return size() - static_cast<Eigen::Index>(exact_.size()); }
   /// The square of what is outside the span.

@@ -57,7 +57,8 @@ std::vector<std::size_t> runs_to_leave_out(const BankPlan& plan) {
   std::map<std::string, std::vector<std::size_t>> runs;
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
     const DesignPoint& point = plan.points[k];
-    if (is_effect(point.id) && !point.scans_only && point.whole != plan.scaled()) runs[point.id].push_back(k);
+    if (is_effect(point.id) && !point.at_fit && !point.scans_only && point.whole != plan.scaled())
+      runs[point.id].push_back(k);
   }
   std::vector<std::size_t> chosen;
   for (auto& [id, points] : runs) {

@@ -42,6 +42,11 @@ class Weigher {
   void add_pairs(const std::vector<ReducedGap>& gaps, double negligible,
                  std::vector<std::vector<Hypothesis>>& all) const;
 
+  /// What was run at the first of these explanations that was run as it fits; null where none was.
+  const AtFit* at_fit_near(const std::vector<std::string>& ids) const;
+  /// That of a pair or, where it was not run so, of its effect of more evidence: the nearest that was.
+  const AtFit* at_fit_near(const Pair& pair, const std::vector<Hypothesis>& singles) const;
+
   /// Whether a pair is weighed for an observation, of which single effects are weighed already.
   bool matters(const Pair& pair, const std::vector<Hypothesis>& singles) const;
 
@@ -50,6 +55,7 @@ class Weigher {
   Pairs which_;
   std::vector<Signature> reduced_;
   std::vector<Pair> pairs_;
+  std::vector<AtFit> at_fit_;  // reduced
 };
 
 }  // namespace pendular::diagnosis

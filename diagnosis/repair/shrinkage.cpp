@@ -60,22 +60,6 @@ struct MemberTests {
   ChangedTests by_machine, of_specimen;
 };
 
-bool only_read(const std::string& id) {
-  const effects::Effect* effect = effects::known_effect(id);
-  return effect && effect->reads_only();
-}
-
-Changes without_readings(Changes changes) {
-  std::erase_if(changes, [](const auto& change) { return only_read(change.first); });
-  return changes;
-}
-
-std::shared_ptr<const SimulatedTest> read_by_machine(SimulatedTest test, const Changes& changes) {
-  for (const auto& effect : effects::all_effects())
-    if (effect.reads_only() && changes.contains(effect.id)) read_test(effect, changes.at(effect.id), test);
-  return std::make_shared<const SimulatedTest>(std::move(test));
-}
-
 /// Only the polymer's modulus, by generalised least squares on its logarithm, unbounded.
 Changes retuned_modulus(const RepairInputs& inputs, const Indices& features) {
   const Comparison& landmarks = inputs.problem.landmarks;
@@ -136,7 +120,7 @@ class Bench {
     for (const int member : kFresh)
       for (const std::size_t c : needed)
         requests.push_back(request_of(inputs_.experiment, inputs_.plan.conditions[c], member,
-                                      static_cast<std::uint64_t>(member), of_specimen, inputs_.packings));
+                                      static_cast<std::uint64_t>(member), changes, inputs_.packings));
     const auto outcomes = inputs_.make_runs(name, requests);
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(inputs_.problem.landmarks.gap.values.size()), count = sum;
     auto outcome = outcomes.begin();
@@ -145,8 +129,8 @@ class Bench {
       member.of_specimen = {of_specimen, member.by_machine.tests};
       for (const std::size_t c : needed) {
         book_run(*outcome, c, name + ": ", changes, diagnosis_.ledger);
-        const auto test = member.of_specimen.tests[c] = read_run(*outcome++, of_specimen);
-        member.by_machine.tests[c] = test ? read_by_machine(*test, changes) : nullptr;
+        member.of_specimen.tests[c] = read_run(*outcome, of_specimen);
+        member.by_machine.tests[c] = read_run(*outcome++, changes);
       }
       const Eigen::VectorXd values = features_of(member, truly_strained);
       for (Eigen::Index f = 0; f < values.size(); ++f)

@@ -61,5 +61,35 @@ TEST(Comparison, AMisreadStrainMayBeTheCurvesAlone) {
   }
 }
 
+// Responses to an effect and to what is believed are learnt apart; runs of both show what is not their sum.
+TEST(Comparison, RunsAtAFitTellWhatResponsesDoNotAddUpTo) {
+  const Eigen::Vector3d effect(1.0, 2.0, 3.0), input(-0.3, 0.3, 0.6);
+  Experiment experiment = three_observations();
+  experiment.uncertainty = {{"contact.friction", 0.05}};
+  Design design = changed_by({"platen_tilt"});
+  design.observed.level = Level::readings;
+  const auto whole = design.whole;
+  for (std::size_t m = 0; m < whole.size(); ++m) {
+    const int member = static_cast<int>(m) + 1;
+    for (const double sds : {-2.0, -1.0, 1.0, 2.0})
+      design.runs.push_back({member, "contact.friction", sds, whole[m] + sds * input});
+    if (member > 4) continue;
+    Eigen::VectorXd run = whole[m] + 1.5 * effect - 2.0 * input + 0.7 * effect;
+    for (Eigen::Index f = 0; f < 3; ++f)
+      run[f] += 1e-3 * random_normal(9, static_cast<std::uint64_t>(3 * member + f));
+    design.at_fit.push_back(
+        {{member, "platen_tilt", 1.0, run}, {{"platen_tilt", 1.5}, {"contact.friction", -2.0}}});
+  }
+  const Comparison found = compare(experiment, BankPlan{}, design);
+  ASSERT_EQ(found.gap.at_fit.size(), 1u);
+  EXPECT_EQ(found.gap.at_fit[0].id, "platen_tilt");
+  EXPECT_TRUE(found.gap.at_fit[0].beyond.isApprox(0.7 * effect, 0.02)) << found.gap.at_fit[0].beyond;
+  // What is left of the gap counts it.
+  const Eigen::VectorXd left = left_by(found, {{"platen_tilt", {1.5, {1.4, 1.6}}}});
+  EXPECT_TRUE((found.gap.values - left).isApprox(2.2 * effect, 0.02));
+  design.at_fit.resize(2);  // too few to tell
+  EXPECT_TRUE(compare(experiment, BankPlan{}, design).gap.at_fit.empty());
+}
+
 }  // namespace
 }  // namespace pendular::diagnosis

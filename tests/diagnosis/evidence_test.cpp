@@ -307,6 +307,31 @@ TEST(Evidence, FewRunsOfAPairSayNoMoreThanTheyScatter) {
   EXPECT_GT(probability(weigh(gap, all, {run}), "a+b"), 2.0 * sure);
 }
 
+// What runs at a fit have beyond responses is part of what the explanation says, and of what those say that
+// are nearest to it.
+TEST(Evidence, RunsAtAFitSayWhatResponsesDoNotAddUpTo) {
+  const auto all = effects(4, 8.0);
+  const ReducedSpace space(gap_of(Eigen::VectorXd::Zero(kFeatures)), all);
+  const Eigen::VectorXd beyond = space.spanned(space.reduced(0.5 * all[1].at(1.0)));
+  Gap gap = gap_of(all[0].at(1.2) + beyond);
+  const Gap without = gap;
+  gap.at_fit = {{"a", beyond, Eigen::MatrixXd::Zero(kFeatures, kFeatures)}};
+  const auto evidence = [](const Gap& of, const std::vector<Signature>& signatures, const std::string& id) {
+    for (const auto& h : weigh(of, signatures))
+      if (h.id == id) return h.log_evidence;
+    return 0.0;
+  };
+  EXPECT_LT(probability(weigh(without, all), "a"), 0.5);
+  EXPECT_GT(probability(weigh(gap, all), "a"), 0.5);
+  EXPECT_NEAR(evidence(gap, all, "a"), evidence(gap_of(all[0].at(1.2)), all, "a"), 1e-9);
+  EXPECT_NEAR(evidence(gap, all, "a+b"), evidence(gap_of(gap.values - beyond), all, "a+b"), 1e-9);
+  for (const char* other : {"none", "b", "c", "b+c"})
+    EXPECT_EQ(evidence(gap, all, other), evidence(without, all, other)) << other;
+  gap.at_fit.front().id = "none";
+  for (const char* near : {"none", "b", "a+b"})
+    EXPECT_NEAR(evidence(gap, all, near), evidence(gap_of(gap.values - beyond), all, near), 1e-9) << near;
+}
+
 TEST(Evidence, OfPairsItIsKnownWhetherTheyWereRun) {
   const auto all = effects(4, 4.0);
   const std::vector<Together> run = {{"c", "a", 1.0, 1.0, Eigen::VectorXd::Zero(kFeatures)}};

@@ -27,6 +27,7 @@ BankPlan plan(int further) {
   made.conditions.resize(1);
   made.size = {1.0};
   made.further = further;
+  for (int member = 1; member <= 6; ++member) made.points.push_back({member, ""});
   return made;
 }
 
@@ -53,6 +54,59 @@ TEST(Leading, WhatWasRunIsNotRunAgain) {
 TEST(Leading, TheBudgetIsKept) {
   EXPECT_TRUE(leading_points(pair_of(0.2, -0.26), {}, plan(3)).empty());
   EXPECT_EQ(leading_points(pair_of(0.2, -0.26), {}, plan(4)).size(), 4u);
+}
+
+/// With what friction does, believed with 0.05, in a direction that no effect has.
+Problem misbelieved(double missing, double by_sds) {
+  Problem problem = pair_of(missing, 0.0);
+  Comparison& readings = problem.readings;
+  readings.inputs = {"contact.friction", std::string("contact.friction") + kCurvature, kSimulationError};
+  readings.gap.believed = Eigen::MatrixXd::Zero(4, 3);
+  readings.gap.believed.col(0) = 20.0 * Eigen::Vector4d(-0.5, 1, 0, 0);
+  readings.gap.values += by_sds * readings.gap.believed.col(0);
+  return problem;
+}
+
+Experiment uncertain() {
+  Experiment experiment;
+  experiment.uncertainty = {{"contact.friction", 0.05}};
+  return experiment;
+}
+
+TEST(Leading, WhatLeadsIsRunAsItFitsWithWhatIsBelieved) {
+  const Problem problem = misbelieved(0.2, -1.52);
+  BankPlan known = plan(96);
+  std::set<int> members;
+  for (const auto& point : fitted_points(uncertain(), problem, {}, known)) {
+    if (point.id != "missing_bridges") continue;
+    EXPECT_TRUE(point.at_fit);
+    ASSERT_EQ(point.changes.size(), 2u);
+    EXPECT_NEAR(point.changes.at("missing_bridges"), 0.2, 0.005);
+    EXPECT_DOUBLE_EQ(point.changes.at("contact.friction"), -1.5);
+    members.insert(point.member);
+  }
+  EXPECT_EQ(members, (std::set<int>{1, 2, 3, 4, 5, 6}));  // all that there are, of what draws
+  known.points = fitted_points(uncertain(), problem, {}, known);
+  EXPECT_TRUE(fitted_points(uncertain(), problem, {}, known).empty());
+  EXPECT_TRUE(fitted_points(uncertain(), problem, {}, plan(3)).empty());
+}
+
+TEST(Leading, RunsGoNoFartherThanTheBankDoes) {
+  for (const auto& point : fitted_points(uncertain(), misbelieved(0.2, 3.0), {}, plan(96)))
+    if (point.id == "missing_bridges") {
+      EXPECT_DOUBLE_EQ(point.changes.at("contact.friction"), 2.0);
+    }
+}
+
+// A pair is more than its effects only where those, as they fit best, leave something.
+TEST(Leading, ThePartsOfALeadingPairAreRunAsTheyFitToo) {
+  Problem problem = pair_of(0.2, -0.26);
+  problem.readings.together = {{"missing_bridges", "bead_friction", 0.2, -0.26, Eigen::VectorXd::Zero(4),
+                                Eigen::MatrixXd::Zero(4, 4)}};
+  std::set<std::string> run;
+  for (const auto& point : fitted_points(uncertain(), problem, {}, plan(96))) run.insert(point.id);
+  EXPECT_EQ(run,
+            (std::set<std::string>{"bead_friction", "missing_bridges", "missing_bridges+bead_friction"}));
 }
 
 TEST(Leading, NothingLeadsWhereThereIsNoGap) {

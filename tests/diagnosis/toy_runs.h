@@ -30,6 +30,8 @@ height_um = 1500
 volume_fraction = 0.58
 )";
 
+inline constexpr double kToyModulus = 1.5e6;  // that it believes
+
 /// A specimen in closed form in the place of the simulation: a toe, a line of slope E ∝ E_p, a peak. Missing
 /// bridges soften it and show in Z; friction of beads raises what comes after the line; toy_softness, which a
 /// test may add, lowers E alone; nothing else acts.
@@ -42,6 +44,8 @@ class ToyRuns {
   /// Further factor of the modulus, which no effect makes.
   double unexplained = 1.0;
   double lateral_ratio = 0.1;
+  /// By how much missing bridges add to what the polymer's modulus does: beyond the product of both.
+  double interplay = 0.0;
 
   std::vector<sweep::RunOutcome> operator()(const std::string&, std::span<const sweep::RunRequest> requests) {
     std::vector<sweep::RunOutcome> outcomes;
@@ -53,7 +57,9 @@ class ToyRuns {
   std::string curve_text(const Sample& sample, std::uint64_t seed) const {
     std::string text = "strain,stress_pa,broken_bonds,lateral_strain\n";
     const double missing = of(sample, "missing_bridges"), friction = of(sample, "bead_friction");
-    const double modulus = 10.0 * sample.bridges.youngs_modulus * (1.0 - 2.0 * missing) *
+    const double beyond_product =
+        1.0 + interplay * missing * (sample.bridges.youngs_modulus / kToyModulus - 1.0);
+    const double modulus = 10.0 * sample.bridges.youngs_modulus * (1.0 - 2.0 * missing) * beyond_product *
                            (1.0 - of(sample, "toy_softness")) * unexplained *
                            (1.0 + 0.005 * random_normal(seed, 1));
     for (int k = 0; k <= kRows; ++k) {
