@@ -29,7 +29,7 @@ Problem followed_problem(const Experiment& experiment, MemberPackings& packings,
   for (int round = 0; round < kRounds; ++round) {
     const std::size_t before = plan.requests.size();
     // What leads by itself comes first: two effects often do what one and wrong beliefs do together.
-    auto points = fitted_points(experiment, problem, rules.priors, plan);
+    auto points = fitted_points(problem, rules.priors, plan);
     if (points.empty()) points = leading_points(problem, rules.priors, plan);
     add_points(experiment, points, packings, plan);
     const std::size_t added = plan.requests.size() - before;

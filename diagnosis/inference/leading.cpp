@@ -13,7 +13,7 @@ namespace {
 constexpr int kMembers = 4, kMembersOfDraws = 8;         // that each is run on
 constexpr std::size_t kMostPairs = 4, kMostSingles = 2;  // at a time
 constexpr std::size_t kMostFits = 6;                     // likewise
-constexpr double kPullStep = 0.1, kFarthestPull = 2.0;   // standard deviations of what is believed
+constexpr double kPullStep = 0.1;                        // standard deviations of what is believed
 constexpr double kPairSteps = 3.0, kSteps = 12.0;        // of a bank's range, to which magnitudes are rounded
 
 /// The nearest step of an effect's range in the bank, at least the first.
@@ -64,19 +64,27 @@ std::vector<Hypothesis> known_explanations(const Problem& problem, Priors priors
   return weigh(readings.gap, readings.signatures, readings.together, priors);
 }
 
-/// What is changed where an explanation fits best: its effects, and what is believed as it has it.
-Changes fit_of(const Experiment& experiment, const Comparison& readings, const Hypothesis& h) {
+/// How far a bank changes a believed input, to either side.
+std::pair<double, double> range_of(const std::string& key, const BankPlan& plan) {
+  std::pair<double, double> range{0.0, 0.0};
+  for (const auto& point : plan.points)
+    if (point.id == key) range = {std::min(range.first, point.theta), std::max(range.second, point.theta)};
+  return range;
+}
+
+/// What is changed where an explanation fits best: its effects, and what is believed as it has it, as far as
+/// the bank goes.
+Changes fit_of(const Comparison& readings, const BankPlan& plan, const Hypothesis& h) {
   Changes changes;
   Magnitudes magnitudes;
   const auto ids = effects_in(h.id);
   for (std::size_t k = 0; k < ids.size(); ++k)
     magnitudes[ids[k]] = h.magnitudes[k], changes[ids[k]] = h.magnitudes[k].mean;
   const Eigen::VectorXd pulls = pulls_of(readings.gap, left_by(readings, magnitudes));
-  const auto inputs = floating_inputs(experiment);
   for (std::size_t c = 0; c < readings.inputs.size(); ++c) {
+    const auto [lowest, highest] = range_of(readings.inputs[c], plan);
     const double pull = std::round(pulls[static_cast<Eigen::Index>(c)] / kPullStep) * kPullStep;
-    if (inputs.contains(readings.inputs[c]) && pull != 0.0)
-      changes[readings.inputs[c]] = std::clamp(pull, -kFarthestPull, kFarthestPull);
+    if (const double sds = std::clamp(pull, lowest, highest); sds != 0.0) changes[readings.inputs[c]] = sds;
   }
   return changes;
 }
@@ -117,8 +125,7 @@ std::vector<DesignPoint> leading_points(const Problem& problem, const Priors& pr
   return points;
 }
 
-std::vector<DesignPoint> fitted_points(const Experiment& experiment, const Problem& problem,
-                                       const Priors& priors, const BankPlan& plan) {
+std::vector<DesignPoint> fitted_points(const Problem& problem, const Priors& priors, const BankPlan& plan) {
   auto known = known_explanations(problem, priors);
   std::erase_if(known, [](const Hypothesis& h) { return h.magnitudes.size() == 2 && !h.run; });
   double total = 0.0;
@@ -136,7 +143,7 @@ std::vector<DesignPoint> fitted_points(const Experiment& experiment, const Probl
     const int members = std::min(draws(h.id) ? kMembersOfDraws : kMembers, members_of(plan));
     left -= members * static_cast<int>(plan.conditions.size());
     if (left < 0 || ++fits > kMostFits) break;
-    const Changes changes = fit_of(experiment, problem.readings, h);
+    const Changes changes = fit_of(problem.readings, plan, h);
     for (int member = 1; member <= members; ++member)
       points.push_back({member, h.id, 1.0, !plan.scaled(), draw_seed(member, 0), false, changes, true});
   }

@@ -16,7 +16,6 @@ std::vector<DesignPoint> leading_points(const Problem& problem, const Priors& pr
 /// Runs of what leads where it fits best, believed inputs included (DesignPoint::at_fit): responses to an
 /// effect and to what is believed are learnt apart, and together they are not always their sum. None where
 /// all that leads was run so, or where the budget of runs is spent.
-std::vector<DesignPoint> fitted_points(const Experiment& experiment, const Problem& problem,
-                                       const Priors& priors, const BankPlan& plan);
+std::vector<DesignPoint> fitted_points(const Problem& problem, const Priors& priors, const BankPlan& plan);
 
 }  // namespace pendular::diagnosis
