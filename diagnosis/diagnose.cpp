@@ -25,19 +25,21 @@ constexpr int kRounds = 6;  // of runs at the leading explanations
 Problem followed_problem(const Experiment& experiment, MemberPackings& packings, const Rules& rules,
                          BankPlan& plan, BankTests& bank) {
   bank.make("bank", plan);
-  Problem problem = problem_of(experiment, plan, bank.tests());
+  Problem problem = readings_of(experiment, plan, bank.tests());
   for (int round = 0; round < kRounds; ++round) {
     const std::size_t before = plan.requests.size();
     // What leads by itself comes first: two effects often do what one and wrong beliefs do together.
-    auto points = fitted_points(problem, rules.priors, plan);
-    if (points.empty()) points = leading_points(problem, rules.priors, plan);
+    const auto known = known_explanations(problem.readings, rules.priors);
+    auto points = fitted_points(problem.readings, known, plan);
+    if (points.empty()) points = leading_points(known, plan);
     add_points(experiment, points, packings, plan);
     const std::size_t added = plan.requests.size() - before;
     if (added == 0) break;
     plan.further -= static_cast<int>(added);
     bank.make("leading explanations", plan);
-    problem = problem_of(experiment, plan, bank.tests());
+    problem = readings_of(experiment, plan, bank.tests());
   }
+  add_landmarks(experiment, plan, bank.tests(), problem);
   return problem;
 }
 

@@ -83,6 +83,7 @@ struct DiagnosisThresholds {
   // Runs at the leading explanations, further measurements, verdict.
   double pair_leads = 0.01, leads = 0.05;  ///< probabilities from which runs are made [development]
   double fit_leads = 0.01;                 ///< likewise, where an explanation fits best [development]
+  double alone = 0.95;  ///< probability from which one that leaves the noise alone needs none [definition]
   double in_question = 0.02;  ///< probability from which a measurement is to tell it [development]
   double short_test = 0.025;  ///< platen strain to which tests are run without being asked for, to assess
                               ///< further measurements: scans at 1 and 2 % [definition]

@@ -35,14 +35,13 @@ struct DesignPoint {
   std::uint64_t seed = 1;   ///< of what effects draw
   bool scans_only = false;  ///< only tests that end at a scan
   Changes changes = {};
-  bool at_fit =
-      false;  ///< as an explanation, `id`, fits best (fitted_points()); no response is learnt from it
+  bool at_fit = false;  ///< as `id` fits best (fitted_points()): no response is learnt from it
 };
 
 struct BankOptions {
   int levels = 3;                   ///< magnitudes of each effect that draws; twice as many of the others
   std::set<std::string> leave_out;  ///< effects that are not considered
-  int runs = 160;                    ///< most that are made at the leading explanations (leading_points())
+  int runs = 160;                   ///< most that are made at the leading explanations (leading_points())
 };
 
 /// The runs from which responses to effects and believed inputs are learnt.

@@ -21,8 +21,7 @@ struct KnownRun {
 struct Design {
   ObservedFeatures observed;
   std::vector<DesignRun> runs;
-  std::vector<KnownRun> at_fit =
-      {};  ///< at best fits of explanations (DesignPoint::at_fit); none but with all members
+  std::vector<KnownRun> at_fit = {};   ///< at best fits (DesignPoint::at_fit), where no member is left out
   std::vector<Eigen::VectorXd> whole;  ///< as believed, of specimens of the observed size
   Eigen::VectorXd by_noise;  ///< what an error of a fifth in the stated errors of displacements does
 };

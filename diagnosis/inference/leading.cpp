@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/inference/reduced_space.h"
 #include "diagnosis/thresholds.h"
 #include "effects/list.h"
 
@@ -56,14 +57,6 @@ bool run_at_fit(const BankPlan& plan, const std::string& id) {
                      [&](const DesignPoint& point) { return point.at_fit && point.id == id; });
 }
 
-/// The explanations that the bank knows, with probabilities among themselves: before pairs were run what they
-/// do looks unknown.
-std::vector<Hypothesis> known_explanations(const Problem& problem, Priors priors) {
-  priors.unknown = 0.0;
-  const Comparison& readings = problem.readings;
-  return weigh(readings.gap, readings.signatures, readings.together, priors);
-}
-
 /// How far a bank changes a believed input, to either side.
 std::pair<double, double> range_of(const std::string& key, const BankPlan& plan) {
   std::pair<double, double> range{0.0, 0.0};
@@ -98,11 +91,16 @@ DesignPoint point_of(const Changes& changes, int member, bool whole) {
 
 }  // namespace
 
-std::vector<DesignPoint> leading_points(const Problem& problem, const Priors& priors, const BankPlan& plan) {
+std::vector<Hypothesis> known_explanations(const Comparison& readings, Priors priors) {
+  priors.unknown = 0.0;
+  return weigh(readings.gap, readings.signatures, readings.together, priors);
+}
+
+std::vector<DesignPoint> leading_points(const std::vector<Hypothesis>& known, const BankPlan& plan) {
   if (plan.further <= 0) return {};
   std::vector<DesignPoint> points;
   std::size_t pairs = 0, singles = 0, runs = 0;
-  for (const auto& h : known_explanations(problem, priors)) {
+  for (const auto& h : known) {
     const bool pair = h.magnitudes.size() == 2;
     if (h.magnitudes.empty() || h.probability < (pair ? kThresholds.pair_leads : kThresholds.leads)) continue;
     if (pair ? pairs == kMostPairs : singles == kMostSingles) continue;
@@ -125,11 +123,15 @@ std::vector<DesignPoint> leading_points(const Problem& problem, const Priors& pr
   return points;
 }
 
-std::vector<DesignPoint> fitted_points(const Problem& problem, const Priors& priors, const BankPlan& plan) {
-  auto known = known_explanations(problem, priors);
-  std::erase_if(known, [](const Hypothesis& h) { return h.magnitudes.size() == 2 && !h.run; });
+std::vector<DesignPoint> fitted_points(const Comparison& readings, std::vector<Hypothesis> known,
+                                       const BankPlan& plan) {
+  std::erase_if(
+      known, [](const Hypothesis& h) { return h.id == "unknown" || (h.magnitudes.size() == 2 && !h.run); });
   double total = 0.0;
   for (const auto& h : known) total += h.probability;
+  const auto directions = static_cast<double>(ReducedSpace(readings.gap, readings.signatures).size());
+  if (known.front().probability > kThresholds.alone * total && known.front().chi_squared < directions)
+    return {};
   std::set<std::string> parts;  // of leading pairs, which are judged against them
   for (const auto& h : known)
     if (h.magnitudes.size() == 2 && h.probability > kThresholds.leads * total)
@@ -139,11 +141,11 @@ std::vector<DesignPoint> fitted_points(const Problem& problem, const Priors& pri
   std::size_t fits = 0;
   for (const auto& h : known) {
     const bool leads = h.probability > kThresholds.fit_leads * total || parts.contains(h.id);
-    if (h.id == "unknown" || !leads || run_at_fit(plan, h.id)) continue;
+    if (!leads || run_at_fit(plan, h.id)) continue;
     const int members = std::min(draws(h.id) ? kMembersOfDraws : kMembers, members_of(plan));
     left -= members * static_cast<int>(plan.conditions.size());
     if (left < 0 || ++fits > kMostFits) break;
-    const Changes changes = fit_of(problem.readings, plan, h);
+    const Changes changes = fit_of(readings, plan, h);
     for (int member = 1; member <= members; ++member)
       points.push_back({member, h.id, 1.0, !plan.scaled(), draw_seed(member, 0), false, changes, true});
   }

@@ -4,14 +4,28 @@
 
 namespace pendular::diagnosis {
 
-Problem problem_of(const Experiment& experiment, const BankPlan& plan,
-                   const std::vector<SimulatedTests>& tests) {
+Problem readings_of(const Experiment& experiment, const BankPlan& plan,
+                    const std::vector<SimulatedTests>& tests) {
   Problem problem;
   const auto [read_plan, read_tests] = with_readings(plan, tests);
-  const BankFeatures landmarks(Level::landmarks, experiment, read_plan, read_tests);
-  problem.landmarks = compare(experiment, read_plan, landmarks.design(problem.warnings));
   problem.features.emplace(Level::readings, experiment, read_plan, read_tests);
   problem.readings = compare(experiment, read_plan, problem.features->design(problem.warnings));
+  return problem;
+}
+
+void add_landmarks(const Experiment& experiment, const BankPlan& plan,
+                   const std::vector<SimulatedTests>& tests, Problem& problem) {
+  const auto [read_plan, read_tests] = with_readings(plan, tests);
+  const BankFeatures landmarks(Level::landmarks, experiment, read_plan, read_tests);
+  std::vector<std::string> warnings;
+  problem.landmarks = compare(experiment, read_plan, landmarks.design(warnings));
+  problem.warnings.insert(problem.warnings.begin(), warnings.begin(), warnings.end());
+}
+
+Problem problem_of(const Experiment& experiment, const BankPlan& plan,
+                   const std::vector<SimulatedTests>& tests) {
+  Problem problem = readings_of(experiment, plan, tests);
+  add_landmarks(experiment, plan, tests, problem);
   return problem;
 }
 

@@ -20,4 +20,10 @@ struct Problem {
 Problem problem_of(const Experiment& experiment, const BankPlan& plan,
                    const std::vector<SimulatedTests>& tests);
 
+/// Its readings alone, which are all that the evidence needs, and what is for words besides.
+Problem readings_of(const Experiment& experiment, const BankPlan& plan,
+                    const std::vector<SimulatedTests>& tests);
+void add_landmarks(const Experiment& experiment, const BankPlan& plan,
+                   const std::vector<SimulatedTests>& tests, Problem& problem);
+
 }  // namespace pendular::diagnosis
