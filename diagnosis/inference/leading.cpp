@@ -82,6 +82,14 @@ Changes fit_of(const Comparison& readings, const BankPlan& plan, const Hypothesi
   return changes;
 }
 
+/// Whether the most probable explanation needs no second look: none or one effect, beside which neither
+/// another nor a pair is probable, and which leaves no more than the noise.
+bool is_alone(const Comparison& readings, const Hypothesis& best) {
+  const ReducedSpace space(readings.gap, readings.signatures);
+  return best.magnitudes.size() < 2 && best.probability > kThresholds.alone &&
+         best.chi_squared < static_cast<double>(space.size());
+}
+
 DesignPoint point_of(const Changes& changes, int member, bool whole) {
   DesignPoint point{
       member, changes.begin()->first, changes.begin()->second, whole, draw_seed(member, 0), false, changes};
@@ -125,13 +133,11 @@ std::vector<DesignPoint> leading_points(const std::vector<Hypothesis>& known, co
 
 std::vector<DesignPoint> fitted_points(const Comparison& readings, std::vector<Hypothesis> known,
                                        const BankPlan& plan) {
+  if (is_alone(readings, known.front())) return {};
   std::erase_if(
       known, [](const Hypothesis& h) { return h.id == "unknown" || (h.magnitudes.size() == 2 && !h.run); });
   double total = 0.0;
   for (const auto& h : known) total += h.probability;
-  const auto directions = static_cast<double>(ReducedSpace(readings.gap, readings.signatures).size());
-  if (known.front().probability > kThresholds.alone * total && known.front().chi_squared < directions)
-    return {};
   std::set<std::string> parts;  // of leading pairs, which are judged against them
   for (const auto& h : known)
     if (h.magnitudes.size() == 2 && h.probability > kThresholds.leads * total)

@@ -20,8 +20,8 @@ std::vector<DesignPoint> leading_points(const std::vector<Hypothesis>& known, co
 
 /// Runs of what leads where it fits best, believed inputs included (DesignPoint::at_fit): responses to an
 /// effect and to what is believed are learnt apart, and together they are not always their sum. None where
-/// one explanation that leaves no more than the noise has all but the whole probability, where all that leads
-/// was run so, or where the budget of runs is spent.
+/// one effect or none has all but the whole probability, pairs that were not run counted, and leaves no more
+/// than the noise; where all that leads was run so, or where the budget of runs is spent.
 std::vector<DesignPoint> fitted_points(const Comparison& readings, std::vector<Hypothesis> known,
                                        const BankPlan& plan);
 

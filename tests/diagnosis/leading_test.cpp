@@ -114,13 +114,20 @@ TEST(Leading, WhatIsAloneAndLeavesNoMoreThanTheNoiseNeedsNoRunsAtItsFit) {
 
 // A pair is more than its effects only where those, as they fit best, leave something.
 TEST(Leading, ThePartsOfALeadingPairAreRunAsTheyFitToo) {
-  Problem problem = pair_of(0.2, -0.035);
-  problem.readings.together = {{"missing_bridges", "bead_friction", 0.2, -0.035, Eigen::VectorXd::Zero(4),
+  Problem problem = pair_of(0.2, -0.06);
+  problem.readings.together = {{"missing_bridges", "bead_friction", 0.2, -0.06, Eigen::VectorXd::Zero(4),
                                 Eigen::MatrixXd::Zero(4, 4)}};
   std::set<std::string> run;
   for (const auto& point : fitted_to(problem, plan(96))) run.insert(point.id);
   EXPECT_EQ(run,
             (std::set<std::string>{"bead_friction", "missing_bridges", "missing_bridges+bead_friction"}));
+}
+
+// One effect and wrong beliefs leave what two effects explain by chance: a pair that was not run counts.
+TEST(Leading, WhatAPairMayExplainInsteadIsRunAtItsFit) {
+  std::set<std::string> run;
+  for (const auto& point : fitted_to(pair_of(0.2, -0.06), plan(96))) run.insert(point.id);
+  EXPECT_EQ(run, (std::set<std::string>{"missing_bridges"}));
 }
 
 TEST(Leading, NothingLeadsWhereThereIsNoGap) {
