@@ -38,7 +38,8 @@ class Prospect {
       if (!effects.contains(effect.id)) plan_.absent.emplace(effect.id, "not in question");
     for (std::size_t k = 0; k < bank.plan.points.size(); ++k) {
       const DesignPoint& point = bank.plan.points[k];
-      if (point.at_fit || point.changes.size() > 1 || (is_effect(point) && !effects.contains(point.id))) continue;
+      if (point.at_fit || point.changes.size() > 1 || (is_effect(point) && !effects.contains(point.id)))
+        continue;
       plan_.points.push_back(point);
       tests_.push_back(known_tests(k));
     }
