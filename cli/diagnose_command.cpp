@@ -117,10 +117,10 @@ void run(const DiagnoseOptions& options) {
   rules.confidence = options.confidence;
   auto found = diagnosis::diagnose(experiment, bank, beads, maker(options), rules,
                                    {!options.no_fresh_runs, options.plan});
+  say(found.verdict);
   ::malloc_trim(0);  // what runs took goes back: pictures need memory of their own
   found.provenance = provenance(options.common, inputs_of(options, experiment));
   diagnosis_report::write_report_folder(options.common.out, found);
-  say(found.verdict);
   for (const auto& warning : found.warnings) warn(warning);
 }
 
