@@ -1,5 +1,6 @@
 // Particle-steps per second of the compression of sample A's specimen: one thread and two, every instruction
-// set that this machine has, and a specimen ten times larger.
+// set that this machine has, and a specimen ten times larger. Beside them what two threads cost by
+// themselves: a parallel loop over nothing, and a line of memory that goes to the other core and back.
 //
 //   cmake --preset bench && cmake --build --preset bench && build-bench/bench/dem_bench
 //
@@ -7,9 +8,11 @@
 
 #include <benchmark/benchmark.h>
 
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <string>
+#include <thread>
 
 #include "base/parallel.h"
 #include "dem_core/compress.h"
@@ -69,6 +72,24 @@ void measure_listing(benchmark::State& state, int threads) {
   state.counters["pairs"] = static_cast<double>(simulation.pairs.size());
 }
 
+void measure_loop(benchmark::State& state) {
+  set_threads(2);
+  for (auto _ : state) for_shares(2, [](std::size_t) {});
+}
+
+void measure_line(benchmark::State& state) {
+  alignas(64) std::atomic<bool> there{false};
+  std::jthread other([&](const std::stop_token& stop) {
+    while (!stop.stop_requested())
+      if (there.load(std::memory_order_acquire)) there.store(false, std::memory_order_release);
+  });
+  for (auto _ : state) {
+    there.store(true, std::memory_order_release);
+    while (there.load(std::memory_order_acquire)) {
+    }
+  }
+}
+
 void add(const std::string& name, int threads, int times, const std::string& set) {
   benchmark::RegisterBenchmark(name.c_str(),
                                [=](benchmark::State& state) { measure(state, threads, times, set); })
@@ -98,6 +119,8 @@ int main(int argc, char** argv) {
   for (int threads : {1, 2})
     add("ten_times_sample_A/threads:" + std::to_string(threads) + "/" + sets.front(), threads, 10,
         sets.front());
+  benchmark::RegisterBenchmark("loop_over_nothing/threads:2", measure_loop)->UseRealTime()->Repetitions(5);
+  benchmark::RegisterBenchmark("line_there_and_back", measure_line)->UseRealTime()->Repetitions(5);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }
