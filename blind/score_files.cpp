@@ -86,6 +86,7 @@ ordered_json json_of(const Bars& bars) {
           {"replayed",
            {{"in_set", json_of(bars.in_set_there)},
             {"single_effects_first", json_of(bars.first_there)},
+            {"pairs_in_set", json_of(bars.pairs_there)},
             {"outside_flagged", json_of(bars.flagged_there)}}}};
 }
 

@@ -57,6 +57,7 @@ std::string bars_table(const Scores& s) {
        [](const Bars& b) { return words(b.single_first); });
   line("what replays expect, and what came", "", "", [](const Bars& b) { return words(b.first_there); });
   line("pairs in the set", "≥ 60 %", "≥ 80 %", [](const Bars& b) { return words(b.pairs_in_set); });
+  line("what replays expect, and what came", "", "", [](const Bars& b) { return words(b.pairs_there); });
   line("outside mechanisms flagged", "≥ 85 %", "≥ 95 %", [](const Bars& b) { return words(b.flagged); });
   line("what replays expect, and what came", "", "", [](const Bars& b) { return words(b.flagged_there); });
   line("outside mechanisms misnamed above 0.9", "≤ 2 %", "≤ 1 %",
@@ -67,8 +68,11 @@ std::string bars_table(const Scores& s) {
        [](const Bars& b) { return share_text(b.magnitude.median_relative_error); });
   text +=
       "\nReplays expect, of the same observations: with nothing or one effect of that sign and nearly that "
-      "magnitude withheld, how often its name is in the set, and how often it is first; with an effect that "
-      "was left out of the library, how often `unknown` is in the set.\n";
+      "magnitude withheld, how often its name is in the set, and how often it is first; with two effects, "
+      "each "
+      "told by itself and both responses known, how often the pair is; with an effect that was left out of "
+      "the "
+      "library, how often `unknown` is.\n";
   text += fmt::format(
       "\nEffects too small to be seen, which count nowhere else: `none` or the effect in the set {}; "
       "something else above 0.9 {}.\n",

@@ -207,6 +207,7 @@ Bars bars(const std::vector<Verdict>& verdicts) {
   bars.magnitude = magnitudes(verdicts);
   bars.in_set_there = expectation(those(verdicts, is_replayed), &Verdict::promised_in_set, in_its_set);
   bars.first_there = expectation(verdicts, &Verdict::promised_first, [](const auto& v) { return v.exact(); });
+  bars.pairs_there = expectation(verdicts, &Verdict::promised_pairs, in_its_set);
   bars.flagged_there = expectation(verdicts, &Verdict::promised_flagged, is_flagged);
   return bars;
 }

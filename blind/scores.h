@@ -80,7 +80,7 @@ struct Bars {
   Proportion misnamed;       ///< outside mechanisms: something else above 0.9
   MagnitudeScore magnitude;  ///< of single effects
   /// By replays of the same observations: Verdict::promised_in_set(), promised_first(), promised_flagged().
-  Expectation in_set_there, first_there, flagged_there;
+  Expectation in_set_there, first_there, pairs_there, flagged_there;
 };
 
 /// Cases whose effect is too small to be seen, which count nowhere else.

@@ -76,14 +76,20 @@ void read_shrinkage(Diagnosed& said, const json& shrinkage) {
   said.wrong_effect = number_in(*controls, "wrong_effect");
 }
 
+/// Share of the replayed cases of one sort; nothing where there are none.
+std::optional<double> share_of(const json& promise, const char* sort, const char* what) {
+  const json found = promise.value(sort, json::object());
+  if (found.value("cases", 0) <= 0) return std::nullopt;
+  return found.at(what).get<double>() / found.at("cases").get<double>();
+}
+
 void read_promise(Diagnosed& said, const json& promise) {
   const auto in_set = number_in(promise, "in_set"), size = number_in(promise, "set_size"),
              theta = number_in(promise, "theta_held"), alarms = number_in(promise, "false_alarms");
   if (in_set && size && theta && alarms) said.promised = {*in_set, *size, *theta, *alarms};
-  if (const json none = promise.value("none", json::object()); none.value("cases", 0) > 0)
-    said.promised_of_none = none.at("in_set").get<double>() / none.at("cases").get<double>();
-  if (const json outside = promise.value("outside", json::object()); outside.value("cases", 0) > 0)
-    said.promised_flagged = outside.at("flagged").get<double>() / outside.at("cases").get<double>();
+  said.promised_of_none = share_of(promise, "none", "in_set");
+  said.promised_flagged = share_of(promise, "outside", "flagged");
+  said.promised_pairs = share_of(promise, "pairs", "in_set");
   const json effects = promise.value("effects", json::object());  // items() does not keep it alive
   for (const auto& [id, replayed] : effects.items()) {
     if (const auto from = replayed.find("told_from"); from != replayed.end())
@@ -161,6 +167,11 @@ std::optional<double> Verdict::promised_first() const {
 std::optional<double> Verdict::promised_flagged() const {
   if (!said || truth.mechanism.empty()) return std::nullopt;
   return said->promised_flagged;
+}
+
+std::optional<double> Verdict::promised_pairs() const {
+  if (!said || truth.effects.size() != 2) return std::nullopt;
+  return said->promised_pairs;
 }
 
 std::string Verdict::top() const {

@@ -47,6 +47,7 @@ struct Diagnosed {
   std::optional<Promised> promised;
   std::optional<double> promised_of_none;  ///< share of replayed runs without an effect whose set is right
   std::optional<double> promised_flagged;  ///< of runs whose effect was left out of the library
+  std::optional<double> promised_pairs;    ///< in the set, of pairs that were put together
   /// A replayed run of one effect: whether the set holds it, and whether it is the most probable (reports of
   /// earlier versions do not say that).
   struct Run {
@@ -84,6 +85,8 @@ struct Verdict {
   std::optional<double> promised_first() const;
   /// How often, by the replay, a mechanism outside the library is flagged; nothing where the truth is none.
   std::optional<double> promised_flagged() const;
+  /// How often, by the replay, a pair of effects is in the set; nothing where the truth is none.
+  std::optional<double> promised_pairs() const;
   bool exact() const { return said && top() == answer; }
   bool confidently_wrong() const { return said && !exact() && probability(top()) > 0.9; }
 };

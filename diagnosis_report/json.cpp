@@ -185,6 +185,7 @@ ordered_json promise_of(const Diagnosis& d) {
           {"false_alarms", replayed(p.false_alarms)},
           {"outside",
            {{"cases", p.outside.cases}, {"flagged", p.outside.flagged}, {"misnamed", p.outside.misnamed}}},
+          {"pairs", {{"cases", p.pairs.cases}, {"in_set", p.pairs.in_set}, {"first", p.pairs.first}}},
           {"temperature", number(p.correction.temperature)},
           {"reliability", reliability},
           {"none", {{"cases", p.none.cases}, {"in_set", p.none.in_set}}},

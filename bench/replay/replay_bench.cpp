@@ -46,19 +46,19 @@ int main(int count, char** words) {
                            seconds() - start);
   const Rules rules;
   std::vector<Replayed> replayed;
-  for (const LeftOut left_out : {LeftOut::nothing, LeftOut::effects}) {
+  for (const Replays what : {Replays::runs, Replays::all}) {
     start = seconds();
-    replayed = replay(experiment, bank.plan, *problem.features, rules.priors, rules.draws, left_out);
+    replayed = replay(experiment, bank.plan, *problem.features, rules.priors, rules.draws, what);
     std::cerr << fmt::format("{} runs replayed in {:.1f} s\n", replayed.size(), seconds() - start);
   }
   start = seconds();
   const Promise promise = promise_of(replayed, rules.confidence);
   std::cerr << fmt::format(
       "promised in {:.1f} s: in the set {:.3f} at {:.2f}, theta {:.2f}, false alarms {:.3f}, temperature {}, "
-      "gate {:.3f}; of {} left out {} flagged, {} misnamed\n",
+      "gate {:.3f}; of {} left out {} flagged, {} misnamed; of {} pairs {} in the set, {} first\n",
       seconds() - start, promise.in_set, promise.set_size, promise.theta_held, promise.false_alarms,
       promise.correction.temperature, promise.correction.gate, promise.outside.cases, promise.outside.flagged,
-      promise.outside.misnamed);
+      promise.outside.misnamed, promise.pairs.cases, promise.pairs.in_set, promise.pairs.first);
   for (const auto& bin : promise.reliability)
     std::cerr << fmt::format("said {:.2f} came true {:.2f} of {}\n", bin.said, bin.came_true, bin.cases);
   std::cout << "member,truth,theta,left_out,top,p_top,p_truth,p_none,p_unknown,chi_squared_top,set\n";

@@ -338,6 +338,19 @@ void count_outside(const Replayed& one, const Correction& correction, OutsideRep
   outside.misnamed += said.front().id != kUnknown && said.front().probability > kConfident;
 }
 
+/// Adds what a pair shows of them, where each of its effects would be told by itself.
+void count_pair(const Replayed& one, const Correction& correction, PairReplay& pairs) {
+  for (const auto& [id, theta] : one.truth)
+    if (const auto from = correction.told_from.find(id);
+        from != correction.told_from.end() && !from->second.tells(theta))
+      return;
+  const auto said = corrected(one.said, correction);
+  const std::string truth = truth_of(one);
+  ++pairs.cases;
+  pairs.in_set += holds(set_of(said, correction), truth);
+  pairs.first += said.front().id == truth;
+}
+
 /// Replayed runs of which each share of a promise is one.
 struct Counted {
   double plain = 0.0, limits = 0.0, intervals = 0.0;
@@ -398,10 +411,10 @@ Promise promise_of(const std::vector<Replayed>& replayed, double confidence, con
   Promise promise;
   promise.confidence = confidence;
   promise.correction.level = std::max(confidence, promise.correction.level);
-  Cases cases, outside;
+  Cases cases, outside, pairs;
   std::set<int> members;
   for (const auto& one : replayed) {
-    (one.left_out.empty() ? cases : outside).push_back(&one);
+    (one.put_together ? pairs : one.left_out.empty() ? cases : outside).push_back(&one);
     members.insert(one.member);
   }
   if (cases.size() < kThresholds.least_cases || members.size() < 3) return promise;
@@ -422,6 +435,8 @@ Promise promise_of(const std::vector<Replayed>& replayed, double confidence, con
       if (one->member == member) count(*one, of_spanned.contains(one), without, promise, bins, counted);
     for (const auto* one : outside)
       if (one->member == member) count_outside(*one, without, promise.outside);
+    for (const auto* one : pairs)
+      if (one->member == member) count_pair(*one, without, promise.pairs);
   }
   const double n = static_cast<double>(cases.size());
   promise.in_set /= n, promise.set_size /= n;

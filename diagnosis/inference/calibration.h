@@ -32,9 +32,14 @@ struct EffectReplay {
   double seen_from() const;
 };
 
-/// What a replay says of mechanisms that the library lacks (LeftOut::effects).
+/// What a replay says of mechanisms that the library lacks (Replays::all).
 struct OutsideReplay {
   std::size_t cases = 0, flagged = 0, misnamed = 0;  ///< `unknown` in the set; another above nine tenths
+};
+
+/// What it says of pairs of effects, each of which is told from none by itself (Replays::all).
+struct PairReplay {
+  std::size_t cases = 0, in_set = 0, first = 0;
 };
 
 /// The explanation that is right for a replayed run: `unknown` where its effect was left out.
@@ -53,6 +58,7 @@ struct Promise {
   EffectReplay none;
   std::map<std::string, EffectReplay> effects;  ///< and pairs that were run
   OutsideReplay outside;
+  PairReplay pairs;
   Correction correction;   ///< of measured experiments
   Correction of_replayed;  ///< of replayed runs: `unknown` by Misfit::power_of_replayed
 };
@@ -68,7 +74,8 @@ struct Promise {
 /// and by `misfit` (Priors). Intervals of θ hold it at 90 %, those of effects with few runs drawn to what all
 /// need; upper limits at 95 %.
 ///
-/// Nothing is learnt from runs whose effect was left out; what becomes of them is counted.
+/// Nothing is learnt from runs whose effect was left out, or that were put together; what becomes of them is
+/// counted.
 Promise promise_of(const std::vector<Replayed>& replayed, double confidence, const Misfit& misfit = {});
 
 }  // namespace pendular::diagnosis

@@ -312,7 +312,7 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   set_signatures(problem, diagnosis);
   const Priors priors = priors_of(readings, rules);
   diagnosis.promise = promise_of(
-      problem.features ? replay(experiment, plan, *problem.features, priors, rules.draws, LeftOut::effects)
+      problem.features ? replay(experiment, plan, *problem.features, priors, rules.draws, Replays::all)
                        : std::vector<Replayed>{},
       rules.confidence, priors.misfit);
   set_unlike(experiment, diagnosis);

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kNegligible = 12.0;     // evidence, as a logarithm, below the best one's
 constexpr std::size_t kLeftOutRuns = 3;  // of each effect
-constexpr std::uint64_t kSeedsOfMember = 1000000;
+constexpr std::size_t kPairsOfMember = 5;
+constexpr std::uint64_t kSeedsOfMember = 1000000, kSeedOfPairs = 500000;
 
 bool is_effect(const std::string& id) {
   const auto& all = effects::all_effects();
@@ -97,9 +98,58 @@ Replayed without_its_effect(const Replayed& run, const Eigen::VectorXd& observed
   return {run.member, run.truth, as_if_run(weigher({observed}, kNegligible).front()), effect};
 }
 
+/// Places of runs of one effect each, in a drawn order: a run, and one whose effect is added to it.
+std::vector<std::pair<std::size_t, std::size_t>> pairs_among(const std::vector<Replayed>& runs,
+                                                             std::uint64_t seed) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    if (runs[k].truth.size() == 1) order.emplace_back(random_normal(seed, k), k);
+  std::sort(order.begin(), order.end());
+  std::vector<std::pair<std::size_t, std::size_t>> found;
+  while (!order.empty() && found.size() < kPairsOfMember) {
+    const std::size_t first = order.front().second;
+    order.erase(order.begin());
+    const auto other = std::find_if(order.begin(), order.end(), [&](const auto& next) {
+      return runs[next.second].truth.begin()->first != runs[first].truth.begin()->first;
+    });
+    if (other == order.end()) continue;
+    found.emplace_back(first, other->second);
+    order.erase(other);
+  }
+  return found;
+}
+
+/// What the second of two effects adds to the first, as learnt.
+Eigen::VectorXd added(const Comparison& learnt, const Changes& first, const Changes& second) {
+  Magnitudes magnitudes;
+  magnitudes[first.begin()->first].mean = first.begin()->second;
+  const Eigen::VectorXd without = left_by(learnt, magnitudes);
+  magnitudes[second.begin()->first].mean = second.begin()->second;
+  return without - left_by(learnt, magnitudes);
+}
+
+/// Diagnoses pairs that are put together from a member's replayed runs.
+std::vector<Replayed> put_together(const std::vector<Replayed>& runs,
+                                   const std::vector<Eigen::VectorXd>& observed, const Comparison& learnt,
+                                   const Weigher& weigher, int member) {
+  std::vector<Replayed> found;
+  std::vector<Eigen::VectorXd> together;
+  for (const auto& [a, b] :
+       pairs_among(runs, kSeedsOfMember * static_cast<std::uint64_t>(member) + kSeedOfPairs)) {
+    found.push_back({member, runs[a].truth, {}});
+    found.back().truth.insert(runs[b].truth.begin(), runs[b].truth.end());
+    found.back().put_together = true;
+    together.push_back(observed[a] + added(learnt, runs[a].truth, runs[b].truth));
+  }
+  if (found.empty()) return found;
+  auto said = weigher(together, kNegligible);
+  for (std::size_t k = 0; k < found.size(); ++k) found[k].said = as_if_run(std::move(said[k]));
+  return found;
+}
+
 std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan& plan,
                                     const BankFeatures& features, const Priors& priors, int member, int draws,
-                                    const std::vector<std::size_t>& left_out) {
+                                    Replays what, const std::vector<std::size_t>& left_out) {
   const auto [design, held] = features.held_out(member, draws);
   const Comparison learnt = compare(experiment, plan, design);
   const Weigher weigher(learnt.gap, learnt.signatures, learnt.together, priors, Pairs::leading);
@@ -123,6 +173,8 @@ std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan
   }
   auto said = weigher(observed, kNegligible);
   for (std::size_t k = 0; k < found.size(); ++k) found[k].said = as_if_run(std::move(said[k]));
+  std::vector<Replayed> pairs;
+  if (what == Replays::all) pairs = put_together(found, observed, learnt, weigher, member);
   for (const std::size_t at : left_out) {
     const DesignPoint& point = plan.points[at];
     const auto run = std::find_if(found.begin(), found.end(),
@@ -131,19 +183,20 @@ std::vector<Replayed> replay_member(const Experiment& experiment, const BankPlan
       found.push_back(
           without_its_effect(*run, observed[static_cast<std::size_t>(run - found.begin())], learnt, priors));
   }
+  std::move(pairs.begin(), pairs.end(), std::back_inserter(found));
   return found;
 }
 
 }  // namespace
 
 std::vector<Replayed> replay(const Experiment& experiment, const BankPlan& plan, const BankFeatures& features,
-                             Priors priors, int draws, LeftOut left_out) {
+                             Priors priors, int draws, Replays what) {
   priors.unknown = 0.0;  // judged by what replayed runs leave (promise_of())
-  const auto chosen = left_out == LeftOut::effects ? runs_to_leave_out(plan) : std::vector<std::size_t>{};
+  const auto chosen = what == Replays::all ? runs_to_leave_out(plan) : std::vector<std::size_t>{};
   const auto members = features.members();
   std::vector<std::vector<Replayed>> of_members(members.size());
   for_blocks(members.size(), 1, [&](std::size_t m, std::size_t) {
-    of_members[m] = replay_member(experiment, plan, features, priors, members[m], draws, chosen);
+    of_members[m] = replay_member(experiment, plan, features, priors, members[m], draws, what, chosen);
   });
   std::vector<Replayed> all;
   for (auto& one : of_members) std::move(one.begin(), one.end(), std::back_inserter(all));

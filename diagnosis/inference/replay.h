@@ -14,10 +14,11 @@ struct Replayed {
   Changes truth;                 ///< its effects, without those that count as absent (Weigher::absent)
   std::vector<Hypothesis> said;  ///< of it by a bank that lacks its member; most probable first
   std::string left_out = {};  ///< the effect that the library lacked too: to be called unknown; empty: none
+  bool put_together = false;  ///< a run of one effect, to which the learnt response to another was added
 };
 
-/// Whether effects are also diagnosed by a library that lacks them.
-enum class LeftOut { nothing, effects };
+/// What is replayed: runs of the bank, or such experiments besides as no run is.
+enum class Replays { runs, all };
 
 /// Every run of the bank that goes all the way is an experiment of known truth: its own errors of measurement
 /// and of the simulation, and wrong beliefs, are drawn by their covariances, seeded by its place; its member
@@ -27,10 +28,12 @@ enum class LeftOut { nothing, effects };
 /// an effect, runs of believed inputs and of readings of the law among them, are about as large a share as
 /// none is probable a priori (Priors). `unknown` is not weighed: promise_of() judges it by what they leave.
 ///
-/// LeftOut::effects: three runs of each effect, at a third, two thirds and the end of their order by
+/// Replays::all: three runs of each effect, at a third, two thirds and the end of their order by
 /// magnitude, are diagnosed once more by a library without the effect, as if it were a mechanism outside the
-/// library. Only those that the library would see (Weigher::absent).
+/// library. Only those that the library would see (Weigher::absent). And pairs: some runs of each member, to
+/// which what it would learn of a second effect is added, as if responses added and were known but for the
+/// runs' own scatter: an observer who knows all responses would name no more of them.
 std::vector<Replayed> replay(const Experiment& experiment, const BankPlan& plan, const BankFeatures& features,
-                             Priors priors, int draws, LeftOut left_out = LeftOut::nothing);
+                             Priors priors, int draws, Replays what = Replays::runs);
 
 }  // namespace pendular::diagnosis

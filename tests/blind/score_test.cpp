@@ -245,6 +245,7 @@ TEST_F(Score, PromisesAtAMagnitudeAreOfReplayedRunsNearIt) {
   promise["effects"]["bead_friction"] = {
       {"cases", 1}, {"told_from_none", 1}, {"runs", {run(0.3, true)}}};  // half as much again as is there
   promise["outside"] = {{"cases", 5}, {"flagged", 4}};
+  promise["pairs"] = {{"cases", 4}, {"in_set", 1}, {"first", 0}};
   for (const char* name : {"c1", "c2", "c4", "c5"}) add_to_report(reports / name, {{"promise", promise}});
   const auto all = verdicts(open_seals(folder / "split"), reports);
   EXPECT_NEAR(all[0].promised_in_set().value(), 2.0 / 3.0, 1e-9);
@@ -271,6 +272,12 @@ TEST_F(Score, PromisesAtAMagnitudeAreOfReplayedRunsNearIt) {
   EXPECT_EQ(sets, 2u);
   EXPECT_EQ(firsts, 1u);
   EXPECT_EQ(outside, 1u);
+  report(reports / "c7", {claim("missing_bridges+bead_friction", 0.9), claim("none", 0.1)},
+         {"missing_bridges+bead_friction"});
+  add_to_report(reports / "c7", {{"promise", promise}});
+  const auto with_pair = verdicts(open_seals(folder / "split"), reports);
+  EXPECT_DOUBLE_EQ(with_pair[6].promised_pairs().value(), 0.25);
+  EXPECT_FALSE(with_pair[0].promised_pairs());  // one effect
 }
 
 TEST_F(Score, SetsWhatCameBesideWhatWasPromised) {

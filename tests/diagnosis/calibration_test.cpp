@@ -343,6 +343,31 @@ TEST(Calibration, RunsWhoseEffectWasLeftOutAreCountedAndTeachNothing) {
   EXPECT_EQ(known.outside.cases, 0u);
 }
 
+TEST(Calibration, PairsThatWerePutTogetherAreCountedAndTeachNothing) {
+  auto all = runs(1.0, 1.0, 11);
+  const Promise known = promise_of(all, 0.95);
+  // Ten of a pair that leads, ten of one that is not thought of, and one whose effects are told at no
+  // magnitude.
+  for (int k = 0; k < 20; ++k) {
+    Replayed one{1 + k % kMembers, {{"a", 1.0}, {"b", 1.0}}, {}};
+    one.put_together = true;
+    one.said = {{k < 10 ? "b+a" : "c", -0.1, 0.9, {{1.0, {0.0, 2.0}}}, 1.0}, {"none", -2.3, 0.1, {}, 1.0}};
+    if (k < 10) one.said.front().magnitudes.push_back({1.0, {0.0, 2.0}});
+    all.push_back(std::move(one));
+  }
+  all.push_back(all.back());
+  all.back().truth = {{"a", 1e-9}, {"b", 1.0}};
+  const Promise promise = promise_of(all, 0.95);
+  EXPECT_EQ(promise.pairs.cases, 20u);
+  EXPECT_EQ(promise.pairs.in_set, 10u);
+  EXPECT_EQ(promise.pairs.first, 10u);
+  EXPECT_EQ(promise.cases, known.cases);
+  EXPECT_EQ(promise.correction.temperature, known.correction.temperature);
+  EXPECT_EQ(promise.in_set, known.in_set);
+  EXPECT_EQ(promise.effects.count("a+b"), 0u);
+  EXPECT_EQ(known.pairs.cases, 0u);
+}
+
 TEST(Calibration, EffectsOnTablesOfBeadsWidenNoOthers) {
   auto all = runs(1.0, 1.0, 1);
   for (auto& one : all) {

@@ -57,6 +57,8 @@ class Diagnose : public ::testing::Test {
     const fs::path beads = folder / "beads";
     BankOptions options;
     options.runs = further_runs;
+    options.leave_out = leave_out;
+    options.levels = levels;
     return diagnose(experiment, plan_bank(experiment, options, beads), beads, std::ref(simulation), rules);
   }
 
@@ -65,6 +67,8 @@ class Diagnose : public ::testing::Test {
   std::string further;
   Rules rules;
   int further_runs = BankOptions().runs;
+  std::set<std::string> leave_out;
+  int levels = BankOptions().levels;
   double compliance = 0.0;  ///< of the machine that reads the curve, um/N
   test::ToyRuns simulation{folder / "runs"}, nature{folder / "nature"};
 };
@@ -126,12 +130,29 @@ TEST_F(Diagnose, PromisesWhatReplayedRunsShowForAnyNumberOfThreads) {
   EXPECT_TRUE(parallel.promise.correction.told_from.at("missing_bridges").tells(0.12));
   EXPECT_NEAR(parallel.promise.theta_held, 0.9, 0.05);
   EXPECT_LT(parallel.promise.false_alarms, 0.1);
+  EXPECT_EQ(parallel.promise.pairs.cases, serial.promise.pairs.cases);
+  EXPECT_EQ(parallel.promise.pairs.in_set, serial.promise.pairs.in_set);
   EXPECT_EQ(parallel.promise.set_size, serial.promise.set_size);
   EXPECT_EQ(parallel.promise.correction.level, serial.promise.correction.level);
   EXPECT_EQ(parallel.promise.correction.widening, serial.promise.correction.widening);
   ASSERT_EQ(parallel.explanations.size(), serial.explanations.size());
   for (std::size_t k = 0; k < serial.explanations.size(); ++k)
     EXPECT_EQ(parallel.explanations[k].probability, serial.explanations[k].probability);
+}
+
+TEST_F(Diagnose, PromisesPairsThatArePutTogetherFromRuns) {
+  // One shows in the coordination number and the line, the other after the line.
+  const std::set<std::string> shown = {"missing_bridges", "bead_friction"};
+  for (const auto& effect : effects::all_effects())
+    if (!shown.contains(effect.id)) leave_out.insert(effect.id);
+  levels = 6;
+  observe_coordination(test::ToyRuns::coordination(truth));
+  const Promise promise = diagnosed().promise;
+  ASSERT_GT(promise.cases, 0u);
+  const PairReplay& pairs = promise.pairs;
+  EXPECT_GE(pairs.cases, 8u);
+  EXPECT_GE(4 * pairs.in_set, 3 * pairs.cases);
+  EXPECT_GE(2 * pairs.first, pairs.cases);
 }
 
 // A polymer stiffer than believed by two standard deviations, of which missing bridges make more than by
