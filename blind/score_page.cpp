@@ -69,10 +69,8 @@ std::string bars_table(const Scores& s) {
   text +=
       "\nReplays expect, of the same observations: with nothing or one effect of that sign and nearly that "
       "magnitude withheld, how often its name is in the set, and how often it is first; with two effects, "
-      "each "
-      "told by itself and both responses known, how often the pair is; with an effect that was left out of "
-      "the "
-      "library, how often `unknown` is.\n";
+      "each told by itself and both responses known, how often the pair is; with an effect that was left out "
+      "of the library, how often `unknown` is.\n";
   text += fmt::format(
       "\nEffects too small to be seen, which count nowhere else: `none` or the effect in the set {}; "
       "something else above 0.9 {}.\n",

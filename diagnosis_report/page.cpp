@@ -112,8 +112,7 @@ viz::ReportSection promise_section(const Diagnosis& d) {
   if (p.pairs.cases > 0)
     text += fmt::format(
         " Of {} pairs of effects that were put together from these runs, each effect large enough to be told "
-        "by "
-        "itself, {} were in the set and {} named first.",
+        "by itself, {} were in the set and {} named first.",
         p.pairs.cases, p.pairs.in_set, p.pairs.first);
   auto out = section("What this can promise", text, {});
   if (!d.unseen.empty())

@@ -31,8 +31,8 @@ enum class Replays { runs, all };
 /// Replays::all: three runs of each effect, at a third, two thirds and the end of their order by
 /// magnitude, are diagnosed once more by a library without the effect, as if it were a mechanism outside the
 /// library. Only those that the library would see (Weigher::absent). And pairs: some runs of each member, to
-/// which what it would learn of a second effect is added, as if responses added and were known but for the
-/// runs' own scatter: an observer who knows all responses would name no more of them.
+/// which what it would learn of a second effect is added: responses add there and are known, as those of
+/// measured pairs are not.
 std::vector<Replayed> replay(const Experiment& experiment, const BankPlan& plan, const BankFeatures& features,
                              Priors priors, int draws, Replays what = Replays::runs);
 
