@@ -1,5 +1,6 @@
 // Every run of a bank diagnosed as if it had been measured (docs/diagnose-method.md, step 8): a row each, and
-// what the replay promises and takes.
+// what the replay promises and takes; and how much of what a reading of the law does to all members it does
+// to each of them.
 //
 //   replay_bench EXPERIMENT.toml STORE > replayed.csv
 //
@@ -8,13 +9,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 
 #include "bench/stored_bank.h"
+#include "diagnosis/bank/law_readings.h"
 #include "diagnosis/inference/calibration.h"
 #include "diagnosis/inference/judgement.h"
 #include "diagnosis/inference/problem.h"
+#include "diagnosis/thresholds.h"
 
 namespace {
 
@@ -31,6 +35,24 @@ double probability(const std::vector<Hypothesis>& said, const std::string& id) {
   return 0.0;
 }
 
+/// Shares of a law's mean response that each member's run shows, as pulls do.
+void tell_laws(const Problem& problem) {
+  std::vector<std::string> ignored;
+  const Design design = problem.features->design(ignored);
+  const auto& inputs = problem.readings.inputs;
+  for (const auto& law : law_readings()) {
+    const auto column = std::find(inputs.begin(), inputs.end(), law.name) - inputs.begin();
+    std::string shares;
+    for (const auto& run : design.runs)
+      for (const auto& as_believed : design.runs) {
+        if (run.id != law.id || !as_believed.id.empty() || as_believed.member != run.member) continue;
+        const Eigen::VectorXd pulls = pulls_of(problem.readings.gap, run.values - as_believed.values);
+        if (column < pulls.size()) shares += fmt::format(" {:.2f}", kThresholds.law_reading * pulls[column]);
+      }
+    std::cerr << fmt::format("{}:{}\n", law.name, shares);
+  }
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -44,6 +66,7 @@ int main(int count, char** words) {
   const Problem problem = problem_of(experiment, bank.plan, bank.tests);
   std::cerr << fmt::format("{} features, problem in {:.1f} s\n", problem.readings.observed.features.size(),
                            seconds() - start);
+  tell_laws(problem);
   const Rules rules;
   std::vector<Replayed> replayed;
   for (const Replays what : {Replays::runs, Replays::all}) {

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <set>
 
 #include "diagnosis/inference/log_sum.h"
 #include "diagnosis/thresholds.h"
