@@ -115,9 +115,11 @@ void run(const DiagnoseOptions& options) {
   make_folder(options.common.out);
   diagnosis::Rules rules;
   rules.confidence = options.confidence;
-  auto found = diagnosis::diagnose(experiment, bank, beads, maker(options), rules,
-                                   {!options.no_fresh_runs, options.plan});
-  say(found.verdict);
+  std::string cause;
+  auto found = diagnosis::diagnose(
+      experiment, bank, beads, maker(options), rules,
+      {!options.no_fresh_runs, options.plan, [&](const std::string& words) { say(cause = words); }});
+  say(found.verdict.substr(cause.size() + 1));
   ::malloc_trim(0);  // what runs took goes back: pictures need memory of their own
   found.provenance = provenance(options.common, inputs_of(options, experiment));
   diagnosis_report::write_report_folder(options.common.out, found);

@@ -113,6 +113,7 @@ Diagnosis diagnose(const Experiment& experiment, BankPlan plan, const fs::path& 
   add_overlays(experiment, plan, bank.tests(), diagnosis);
   diagnosis.warnings.insert(diagnosis.warnings.end(), problem.warnings.begin(), problem.warnings.end());
   judge(problem, rules, plan, experiment, diagnosis);
+  if (scope.say_cause) scope.say_cause(cause_of(diagnosis));
   if (diagnosis.promise.cases == 0)
     diagnosis.warnings.push_back(
         "the bank is too small to be replayed: how far probabilities, sets and intervals hold is not known, "

@@ -1,15 +1,20 @@
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "diagnosis/bank/runner.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/inference/judgement.h"
 
 namespace pendular::diagnosis {
 
-/// What is run beside the bank.
+/// What is run beside the bank, and who hears of it.
 struct Scope {
   bool fresh_runs = true;  ///< without, nothing is said of how far the gap shrinks, nor of further scans
   bool plan = false;       ///< of all conditions that the bank lacks, to assess further measurements
+  std::function<void(const std::string&)> say_cause =
+      {};  ///< gets cause_of(), before anything of this is run
 };
 
 /// Where an experiment and its simulation part, which effect causes it, how far it shrinks once that is

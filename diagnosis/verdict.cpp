@@ -195,9 +195,13 @@ std::string trust(const Diagnosis& diagnosis) {
 
 }  // namespace
 
+std::string cause_of(const Diagnosis& diagnosis) {
+  return cause(diagnosis) + which_law(diagnosis) + whose_strains(diagnosis);
+}
+
 std::string verdict_of(const Diagnosis& diagnosis) {
-  std::string text = cause(diagnosis) + which_law(diagnosis) + whose_strains(diagnosis) +
-                     what_next(diagnosis) + "\n" + where(diagnosis) + how_far(diagnosis);
+  std::string text =
+      cause_of(diagnosis) + what_next(diagnosis) + "\n" + where(diagnosis) + how_far(diagnosis);
   if (const std::string last = trust(diagnosis); !last.empty()) text += "\n" + last;
   return text;
 }
