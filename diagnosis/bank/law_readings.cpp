@@ -6,6 +6,16 @@
 #include <variant>
 
 namespace pendular::diagnosis {
+namespace {
+
+template <class Is>
+const LawReading* first_with(Is is) {
+  const auto& all = law_readings();
+  const auto found = std::find_if(all.begin(), all.end(), is);
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace
 
 const std::vector<LawReading>& law_readings() {
   static const std::vector<LawReading> all = {
@@ -42,9 +52,11 @@ std::string other_setting(const LawReading& reading, const Sample& sample) {
 }
 
 const LawReading* find_law_reading(const std::string& id) {
-  const auto& all = law_readings();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return id == one.id; });
-  return found == all.end() ? nullptr : &*found;
+  return first_with([&](const LawReading& one) { return id == one.id; });
+}
+
+const LawReading* law_reading_named(const std::string& name) {
+  return first_with([&](const LawReading& one) { return name == one.name; });
 }
 
 }  // namespace pendular::diagnosis

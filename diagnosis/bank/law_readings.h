@@ -21,7 +21,8 @@ const std::vector<LawReading>& law_readings();
 /// The other way of a reading, as a sample states it: `contact.glass = "hertz"`.
 std::string other_setting(const LawReading& reading, const Sample& sample);
 
-/// The reading of that name; nullptr where there is none.
+/// The reading of that id, or of that name for readers; nullptr where there is none.
 const LawReading* find_law_reading(const std::string& id);
+const LawReading* law_reading_named(const std::string& name);
 
 }  // namespace pendular::diagnosis

@@ -50,6 +50,7 @@ class Learner {
     set_signatures(responses);
     set_together(responses);
     set_believed(responses);
+    add_scatter_of_laws(responses);
     set_covariance(responses);
     if (found_.observed.level != Level::readings) return;
     set_outside(responses);
@@ -141,6 +142,13 @@ class Learner {
     found_.gap.believed = Eigen::MatrixXd(size(), static_cast<Eigen::Index>(columns.size()));
     for (std::size_t c = 0; c < columns.size(); ++c)
       found_.gap.believed.col(static_cast<Eigen::Index>(c)) = columns[c];
+  }
+
+  /// The other reading of a law does more to one member than to another: columns of gap.believed are means.
+  void add_scatter_of_laws(const Responses& responses) {
+    for (const auto& reading : law_readings())
+      if (const Signature* found = responses.find(reading.id); found && found->draws.size() > 0)
+        found_.observed.model += kThresholds.law_reading * kThresholds.law_reading * found->draws;
   }
 
   void set_covariance(const Responses& responses) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/bank/law_readings.h"
 #include "diagnosis/inference/reduced_space.h"
 #include "diagnosis/thresholds.h"
 #include "effects/list.h"
@@ -65,8 +66,8 @@ std::pair<double, double> range_of(const std::string& key, const BankPlan& plan)
   return range;
 }
 
-/// What is changed where an explanation fits best: its effects, and what is believed as it has it, as far as
-/// the bank goes.
+/// What is changed where an explanation fits best: its effects, what is believed as it has it, as far as the
+/// bank goes, and the law's other reading where that is nearer.
 Changes fit_of(const Comparison& readings, const BankPlan& plan, const Hypothesis& h) {
   Changes changes;
   Magnitudes magnitudes;
@@ -75,9 +76,15 @@ Changes fit_of(const Comparison& readings, const BankPlan& plan, const Hypothesi
     magnitudes[ids[k]] = h.magnitudes[k], changes[ids[k]] = h.magnitudes[k].mean;
   const Eigen::VectorXd pulls = pulls_of(readings.gap, left_by(readings, magnitudes));
   for (std::size_t c = 0; c < readings.inputs.size(); ++c) {
+    const double pull = pulls[static_cast<Eigen::Index>(c)];
+    if (const LawReading* law = law_reading_named(readings.inputs[c])) {
+      if (kThresholds.law_reading * pull > kThresholds.least_followed) changes[law->id] = 1.0;
+      continue;
+    }
     const auto [lowest, highest] = range_of(readings.inputs[c], plan);
-    const double pull = std::round(pulls[static_cast<Eigen::Index>(c)] / kPullStep) * kPullStep;
-    if (const double sds = std::clamp(pull, lowest, highest); sds != 0.0) changes[readings.inputs[c]] = sds;
+    const double rounded_pull = std::round(pull / kPullStep) * kPullStep;
+    if (const double sds = std::clamp(rounded_pull, lowest, highest); sds != 0.0)
+      changes[readings.inputs[c]] = sds;
   }
   return changes;
 }

@@ -91,5 +91,31 @@ TEST(Comparison, RunsAtAFitTellWhatResponsesDoNotAddUpTo) {
   EXPECT_TRUE(compare(experiment, BankPlan{}, design).gap.at_fit.empty());
 }
 
+// Two readings of the law are as likely: of what the other one does to members, half the variance is noise.
+TEST(Comparison, WhatALawDoesToOneMemberMoreThanToAnotherIsNoise) {
+  const Eigen::Vector3d law(0.2, 0.4, -0.1), differs(0.3, -0.1, 0.2), input(-0.3, 0.3, 0.6);
+  Experiment experiment = three_observations();
+  experiment.uncertainty = {{"contact.friction", 0.05}};
+  const auto widened_by = [&](double differing) {
+    Design design = changed_by({"platen_tilt"});
+    const auto whole = design.whole;
+    for (std::size_t m = 0; m < whole.size(); ++m) {
+      const int member = static_cast<int>(m) + 1;
+      for (int sds = -10; sds <= 10; ++sds)
+        if (sds != 0)
+          design.runs.push_back({member, "contact.friction", 0.2 * sds, whole[m] + 0.2 * sds * input});
+      const double more = m % 2 == 0 ? differing : -differing;  // ± of six: variance 6/5
+      design.runs.push_back({member, "glass", 1.0, whole[m] + law + more * differs});
+    }
+    const Eigen::MatrixXd before = design.observed.model;
+    return Eigen::MatrixXd(compare(experiment, BankPlan{}, design).observed.model - before);
+  };
+  EXPECT_LT(widened_by(0.0).norm(), 1e-6);
+  const Eigen::MatrixXd widened = widened_by(1.0), expected = 0.5 * differs * differs.transpose();
+  EXPECT_GT(widened.trace(), 0.9 * expected.trace());
+  EXPECT_LT(widened.trace(), 1.5 * expected.trace());
+  EXPECT_TRUE((widened / widened.trace()).isApprox(expected / expected.trace(), 0.05)) << widened;
+}
+
 }  // namespace
 }  // namespace pendular::diagnosis

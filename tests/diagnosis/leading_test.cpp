@@ -1,5 +1,7 @@
 #include "diagnosis/inference/leading.h"
+#include "diagnosis/bank/law_readings.h"
 #include "diagnosis/inference/problem.h"
+#include "diagnosis/thresholds.h"
 #include "signatures.h"
 
 #include <gtest/gtest.h>
@@ -105,6 +107,20 @@ TEST(Leading, RunsGoNoFartherThanTheBankDoes) {
       if (point.id == "missing_bridges") {
         EXPECT_DOUBLE_EQ(point.changes.at("contact.friction"), sds > 0.0 ? 1.0 : -2.0);
       }
+}
+
+TEST(Leading, AtItsFitWhatLeadsFollowsTheNearerReadingOfALaw) {
+  const LawReading& glass = *find_law_reading("glass");
+  for (const double share : {0.2, 0.9}) {
+    Problem problem = misbelieved(0.2, share / kThresholds.law_reading);
+    problem.readings.inputs[0] = glass.name;
+    const auto points = fitted_to(problem, plan(96));
+    ASSERT_FALSE(points.empty());
+    for (const auto& point : points)
+      if (point.id == "missing_bridges") {
+        EXPECT_EQ(point.changes.contains("glass"), share > 0.5) << share;
+      }
+  }
 }
 
 TEST(Leading, WhatIsAloneAndLeavesNoMoreThanTheNoiseNeedsNoRunsAtItsFit) {
