@@ -10,6 +10,7 @@
 #include "diagnosis/advice/next_experiments.h"
 #include "diagnosis/bank/bank_tests.h"
 #include "diagnosis/inference/leading.h"
+#include "diagnosis/inference/stated_laws.h"
 #include "diagnosis/repair/experiment_places.h"
 #include "diagnosis/repair/shrinkage.h"
 #include "diagnosis/thresholds.h"
@@ -26,6 +27,8 @@ Problem followed_problem(const Experiment& experiment, MemberPackings& packings,
                          BankPlan& plan, BankTests& bank) {
   bank.make("bank", plan);
   Problem problem = readings_of(experiment, plan, bank.tests());
+  plan.as_stated = laws_as_stated(problem.readings, known_explanations(problem.readings, rules.priors));
+  if (!plan.as_stated.empty()) compare_anew(experiment, plan, problem);
   for (int round = 0; round < kRounds; ++round) {
     const std::size_t before = plan.requests.size();
     // What leads by itself comes first: two effects often do what one and wrong beliefs do together.

@@ -39,6 +39,8 @@ struct DiagnosisThresholds {
   double uncorrelated =
       1.0;  ///< of each reading's variance, once more without correlation: members are few [development]
   double law_reading = 0.71;  ///< of what a law's other reading does: √½, either is as likely [definition]
+  double law_as_stated = 0.1;  ///< the same where the experiment shows the sample's own [development]
+  double decisive = 100.0;     ///< ratio of probabilities that is decisive (Jeffreys) [definition]
   double least_followed = 0.5, most_followed = 1.75;  ///< shares of it that say that it holds [development]
   double followed_by = 3.0;      ///< standard deviations of the share, from which it is said [development]
   double stated_error = 0.2;     ///< of stated standard errors of displacements and necks [development]

@@ -56,6 +56,7 @@ struct BankPlan {
   std::vector<sweep::RunRequest> requests;
   std::map<std::string, std::string> absent;  ///< effects without runs, and why
   int further = 0;                            ///< runs that may be made at the leading explanations
+  std::set<std::string> as_stated;            ///< laws that are known to be the sample's (laws_as_stated())
 
   /// Whether responses are learnt on smaller specimens.
   bool scaled() const {

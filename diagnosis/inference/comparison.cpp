@@ -50,7 +50,6 @@ class Learner {
     set_signatures(responses);
     set_together(responses);
     set_believed(responses);
-    add_scatter_of_laws(responses);
     set_covariance(responses);
     if (found_.observed.level != Level::readings) return;
     set_outside(responses);
@@ -127,8 +126,8 @@ class Learner {
         if (found->powers.size() > 1) add(key + kCurvature, M_SQRT2 * found->powers[1]);
       }
     for (const auto& reading : law_readings())
-      if (const Signature* found = responses.find(reading.id))
-        add(reading.name, kThresholds.law_reading * found->at(1.0));
+      if (const LawResponse* law = set_law(reading, responses))
+        add(reading.name, share_of_law(plan_, reading) * law->mean);
     Eigen::VectorXd stresses(size());
     for (Eigen::Index f = 0; f < size(); ++f)
       stresses[f] = shared_stress_error(found_.observed.features[static_cast<std::size_t>(f)]);
@@ -144,11 +143,16 @@ class Learner {
       found_.gap.believed.col(static_cast<Eigen::Index>(c)) = columns[c];
   }
 
-  /// The other reading of a law does more to one member than to another: columns of gap.believed are means.
-  void add_scatter_of_laws(const Responses& responses) {
-    for (const auto& reading : law_readings())
-      if (const Signature* found = responses.find(reading.id); found && found->draws.size() > 0)
-        found_.observed.model += kThresholds.law_reading * kThresholds.law_reading * found->draws;
+  /// What the other reading does to members differs, which is noise beside the mean.
+  const LawResponse* set_law(const LawReading& reading, const Responses& responses) {
+    const Signature* found = responses.find(reading.id);
+    if (!found) return nullptr;
+    found_.laws.push_back({reading.id,
+                           found->at(1.0).unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; }),
+                           found->draws.size() > 0 ? found->draws : Eigen::MatrixXd::Zero(size(), size())});
+    const LawResponse& law = found_.laws.back();
+    found_.observed.model += std::pow(share_of_law(plan_, reading), 2) * law.scatter;
+    return &law;
   }
 
   void set_covariance(const Responses& responses) {
@@ -254,6 +258,10 @@ class Learner {
 
 double usual_magnitude(const effects::Effect& effect) {
   return kThresholds.usual_share * largest_in_bank(effect);
+}
+
+double share_of_law(const BankPlan& plan, const LawReading& law) {
+  return plan.as_stated.contains(law.id) ? kThresholds.law_as_stated : kThresholds.law_reading;
 }
 
 Eigen::MatrixXd root_of(const Eigen::MatrixXd& covariance) {

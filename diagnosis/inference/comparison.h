@@ -13,6 +13,15 @@ struct Effect;
 
 namespace pendular::diagnosis {
 
+struct LawReading;
+
+/// What the other reading of a law does: its mean, and the covariance by which members differ from that.
+struct LawResponse {
+  std::string id;
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd scatter;
+};
+
 /// Observation and simulation at one level: all vectors in the order of `observed`.
 struct Comparison {
   ObservedFeatures observed;
@@ -21,6 +30,7 @@ struct Comparison {
   std::vector<std::string> inputs;    ///< what the columns of gap.believed are responses to
   std::vector<Signature> signatures;  ///< of the effects
   std::vector<Together> together;     ///< of those that were run together
+  std::vector<LawResponse> laws;
   std::vector<NoiseBudget> noise;
 };
 
@@ -29,6 +39,9 @@ inline constexpr const char* kSimulationError = "stresses of the simulation";
 inline constexpr const char* kBeadsError = "measured centres and diameters";
 inline constexpr const char* kCurvature = ", squared";  ///< after a key: what its response is not a line by
 inline constexpr const char* kFieldError = "stated errors of displacements";
+
+/// How large a share of what the other reading of a law does is noise, as a standard deviation.
+double share_of_law(const BankPlan& plan, const LawReading& law);
 
 /// Responses, noise and gap as a design shows them. `plan`: of its bank.
 Comparison compare(const Experiment& experiment, const BankPlan& plan, const Design& design);

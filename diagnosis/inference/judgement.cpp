@@ -232,16 +232,15 @@ void set_pulls(const Comparison& readings, const Magnitudes& best, const Experim
 }
 
 /// Readings of the law that pulls show. Where no explanation has a name they take up what they can of it.
-void set_law(const Experiment& experiment, Diagnosis& diagnosis) {
+void set_law(const Experiment& experiment, const BankPlan& plan, Diagnosis& diagnosis) {
   const std::string& best = diagnosis.explanations.front().id;
   if (best == kUnknown || best == kOtherPairs) return;
   for (const auto& reading : law_readings())
     for (const auto& pull : diagnosis.pulls) {
-      const double share = kThresholds.law_reading * pull.pull;
+      const double known_to = share_of_law(plan, reading), share = known_to * pull.pull;
       if (pull.key == reading.name && share > kThresholds.least_followed &&
           share < kThresholds.most_followed && pull.pull > kThresholds.followed_by * pull.spread)
-        diagnosis.law.push_back(
-            {other_setting(reading, experiment.sample), share, kThresholds.law_reading * pull.spread});
+        diagnosis.law.push_back({other_setting(reading, experiment.sample), share, known_to * pull.spread});
     }
 }
 
@@ -333,7 +332,7 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   for (const std::size_t index : truly_strained(readings, fitted))
     diagnosis.specimen_strains.push_back(experiment.observations[index].name);
   set_pulls(readings, fitted, experiment, diagnosis);
-  set_law(experiment, diagnosis);
+  set_law(experiment, plan, diagnosis);
 }
 
 }  // namespace pendular::diagnosis

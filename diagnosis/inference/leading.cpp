@@ -78,7 +78,7 @@ Changes fit_of(const Comparison& readings, const BankPlan& plan, const Hypothesi
   for (std::size_t c = 0; c < readings.inputs.size(); ++c) {
     const double pull = pulls[static_cast<Eigen::Index>(c)];
     if (const LawReading* law = law_reading_named(readings.inputs[c])) {
-      if (kThresholds.law_reading * pull > kThresholds.least_followed) changes[law->id] = 1.0;
+      if (share_of_law(plan, *law) * pull > kThresholds.least_followed) changes[law->id] = 1.0;
       continue;
     }
     const auto [lowest, highest] = range_of(readings.inputs[c], plan);

@@ -13,6 +13,11 @@ Problem readings_of(const Experiment& experiment, const BankPlan& plan,
   return problem;
 }
 
+void compare_anew(const Experiment& experiment, const BankPlan& plan, Problem& problem) {
+  problem.warnings.clear();
+  problem.readings = compare(experiment, plan, problem.features->design(problem.warnings));
+}
+
 void add_landmarks(const Experiment& experiment, const BankPlan& plan,
                    const std::vector<SimulatedTests>& tests, Problem& problem) {
   const auto [read_plan, read_tests] = with_readings(plan, tests);

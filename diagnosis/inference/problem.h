@@ -20,6 +20,9 @@ struct Problem {
 Problem problem_of(const Experiment& experiment, const BankPlan& plan,
                    const std::vector<SimulatedTests>& tests);
 
+/// The same runs, where the plan knows more of the law (BankPlan::as_stated).
+void compare_anew(const Experiment& experiment, const BankPlan& plan, Problem& problem);
+
 /// Its readings alone, which are all that the evidence needs, and what is for words besides.
 Problem readings_of(const Experiment& experiment, const BankPlan& plan,
                     const std::vector<SimulatedTests>& tests);
