@@ -119,7 +119,8 @@ struct Diagnosis {
   Eigen::MatrixXd separation;        ///< isolability(), effects × (effects + 1)
   std::vector<GroupMagnitude> groups;
   std::vector<Pull> pulls;
-  std::vector<FollowedReading> law;  ///< none where the cause has no name
+  std::vector<FollowedReading> law;        ///< none where the cause has no name
+  std::vector<std::string> law_as_stated;  ///< ids of readings that are the sample's (laws_as_stated())
   /// Observations whose strains are taken as the specimen's own, where the cause is that the machine misreads
   /// them.
   std::vector<std::string> specimen_strains;

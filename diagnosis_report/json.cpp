@@ -275,6 +275,7 @@ ordered_json to_json(const Diagnosis& d) {
   json["groups"] = groups_of(d);
   json["pulls"] = pulls_of(d);
   json["law"] = law_of(d);
+  json["law_as_stated"] = d.law_as_stated;
   json["specimen_strains"] = d.specimen_strains;
   json["places"] = places_of(d);
   json["separation"] = {{"effects", d.effects}, {"squared_distance", rows_of(d.separation)}};

@@ -333,6 +333,7 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
     diagnosis.specimen_strains.push_back(experiment.observations[index].name);
   set_pulls(readings, fitted, experiment, diagnosis);
   set_law(experiment, plan, diagnosis);
+  diagnosis.law_as_stated.assign(plan.as_stated.begin(), plan.as_stated.end());
 }
 
 }  // namespace pendular::diagnosis

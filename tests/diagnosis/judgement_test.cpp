@@ -138,6 +138,23 @@ TEST(Judgement, SaysWhichReadingOfTheLawTheExperimentFollows) {
   EXPECT_TRUE(law_at(-1.0, Glass::linear).first.empty()) << "the other way is no reading";
 }
 
+// A tenth of the other reading is left as noise, in which a pull is no share that counts.
+TEST(Judgement, SaysWhichReadingsAreTheSamples) {
+  const Eigen::Vector3d of_hertz(0.0, 0.5, 2.0);
+  Problem problem = planted(0.09 * of_hertz);
+  for (Comparison* one : {&problem.landmarks, &problem.readings}) {
+    one->gap.believed.conservativeResize(3, 2);
+    one->gap.believed.col(1) = kThresholds.law_as_stated * of_hertz;
+    one->inputs.push_back(find_law_reading("glass")->name);
+  }
+  BankPlan plan;
+  plan.as_stated = {"glass"};
+  Diagnosis diagnosis;
+  judge(problem, {}, plan, one_curve(), diagnosis);
+  EXPECT_EQ(diagnosis.law_as_stated, (std::vector<std::string>{"glass"}));
+  EXPECT_TRUE(diagnosis.law.empty());
+}
+
 TEST(Judgement, WhatNoEffectCanDoIsUnknown) {
   const auto diagnosis = judged({0.4, -0.4, 0.5});
   EXPECT_EQ(diagnosis.explanations.front().id, "unknown");
