@@ -37,14 +37,12 @@ double probability(const std::vector<Hypothesis>& said, const std::string& id) {
 
 /// Shares of a law's mean response that each member's run shows, as pulls do.
 void tell_laws(const Problem& problem) {
-  std::vector<std::string> ignored;
-  const Design design = problem.features->design(ignored);
   const auto& inputs = problem.readings.inputs;
   for (const auto& law : law_readings()) {
     const auto column = std::find(inputs.begin(), inputs.end(), law.name) - inputs.begin();
     std::string shares;
-    for (const auto& run : design.runs)
-      for (const auto& as_believed : design.runs) {
+    for (const auto& run : problem.design.runs)
+      for (const auto& as_believed : problem.design.runs) {
         if (run.id != law.id || !as_believed.id.empty() || as_believed.member != run.member) continue;
         const Eigen::VectorXd pulls = pulls_of(problem.readings.gap, run.values - as_believed.values);
         if (column < pulls.size()) shares += fmt::format(" {:.2f}", kThresholds.law_reading * pulls[column]);

@@ -9,13 +9,13 @@ Problem readings_of(const Experiment& experiment, const BankPlan& plan,
   Problem problem;
   const auto [read_plan, read_tests] = with_readings(plan, tests);
   problem.features.emplace(Level::readings, experiment, read_plan, read_tests);
-  problem.readings = compare(experiment, read_plan, problem.features->design(problem.warnings));
+  problem.design = problem.features->design(problem.warnings);
+  problem.readings = compare(experiment, read_plan, problem.design);
   return problem;
 }
 
 void compare_anew(const Experiment& experiment, const BankPlan& plan, Problem& problem) {
-  problem.warnings.clear();
-  problem.readings = compare(experiment, plan, problem.features->design(problem.warnings));
+  problem.readings = compare(experiment, plan, problem.design);
 }
 
 void add_landmarks(const Experiment& experiment, const BankPlan& plan,

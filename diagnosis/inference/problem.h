@@ -13,6 +13,7 @@ struct Problem {
   Comparison landmarks;                       ///< for words, figures and repair
   Comparison readings;                        ///< for the evidence
   std::optional<BankFeatures> features = {};  ///< that the readings were learnt from
+  Design design = {};                         ///< of these
   std::vector<std::string> warnings = {};     ///< features that could not be used, and why
 };
 
