@@ -13,8 +13,8 @@ namespace pendular::diagnosis {
 struct Scope {
   bool fresh_runs = true;  ///< without, nothing is said of how far the gap shrinks, nor of further scans
   bool plan = false;       ///< of all conditions that the bank lacks, to assess further measurements
-  std::function<void(const std::string&)> say_cause =
-      {};  ///< gets cause_of(), before anything of this is run
+  /// Gets cause_of(), before anything of this is run.
+  std::function<void(const std::string&)> say_cause = {};
 };
 
 /// Where an experiment and its simulation part, which effect causes it, how far it shrinks once that is

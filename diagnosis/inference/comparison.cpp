@@ -49,6 +49,7 @@ class Learner {
     found_.gap.values = found_.observed.values() - found_.simulated;
     set_signatures(responses);
     set_together(responses);
+    set_laws(responses);
     set_believed(responses);
     set_covariance(responses);
     if (found_.observed.level != Level::readings) return;
@@ -125,9 +126,10 @@ class Learner {
         // Of θ², whose standard deviation is √2.
         if (found->powers.size() > 1) add(key + kCurvature, M_SQRT2 * found->powers[1]);
       }
-    for (const auto& reading : law_readings())
-      if (const LawResponse* law = set_law(reading, responses))
-        add(reading.name, share_of_law(plan_, reading) * law->mean);
+    for (const auto& law : found_.laws) {
+      const LawReading& reading = *find_law_reading(law.id);
+      add(reading.name, share_of_law(plan_, reading) * law.mean);
+    }
     Eigen::VectorXd stresses(size());
     for (Eigen::Index f = 0; f < size(); ++f)
       stresses[f] = shared_stress_error(found_.observed.features[static_cast<std::size_t>(f)]);
@@ -143,16 +145,16 @@ class Learner {
       found_.gap.believed.col(static_cast<Eigen::Index>(c)) = columns[c];
   }
 
-  /// What the other reading does to members differs, which is noise beside the mean.
-  const LawResponse* set_law(const LawReading& reading, const Responses& responses) {
-    const Signature* found = responses.find(reading.id);
-    if (!found) return nullptr;
-    found_.laws.push_back({reading.id,
-                           found->at(1.0).unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; }),
-                           found->draws.size() > 0 ? found->draws : Eigen::MatrixXd::Zero(size(), size())});
-    const LawResponse& law = found_.laws.back();
-    found_.observed.model += std::pow(share_of_law(plan_, reading), 2) * law.scatter;
-    return &law;
+  /// What the other reading does to members differs: noise beside the mean, which is believed.
+  void set_laws(const Responses& responses) {
+    for (const auto& reading : law_readings()) {
+      const Signature* found = responses.find(reading.id);
+      if (!found) continue;
+      found_.laws.push_back({reading.id,
+                             found->at(1.0).unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; }),
+                             found->draws});
+      found_.observed.model += std::pow(share_of_law(plan_, reading), 2) * found->draws;
+    }
   }
 
   void set_covariance(const Responses& responses) {

@@ -32,7 +32,7 @@ std::set<std::string> laws_as_stated(const Comparison& readings, const std::vect
   const Eigen::MatrixXd whole = whole_covariance(readings.gap);
   std::vector<Eigen::VectorXd> left;  // by what is probable
   for (const auto& h : known) {
-    if (h.probability < kThresholds.least_in_set || h.id == "unknown") continue;
+    if (h.probability < kThresholds.least_in_set) continue;
     Magnitudes magnitudes;
     const auto ids = effects_in(h.id);
     for (std::size_t k = 0; k < ids.size(); ++k) magnitudes[ids[k]] = h.magnitudes[k];
