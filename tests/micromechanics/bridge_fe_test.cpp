@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -264,6 +265,14 @@ TEST(BridgeFe, ScalesWithUnits) {
 }
 
 // ---- Bad input ----
+
+/// Eigen cuts products into sums by the sizes of caches. With those of the processor, stiffnesses differed in
+/// the twelfth digit between two processors of one instruction set, and so did all runs.
+TEST(BridgeFe, IsNotCutByTheCachesOfTheMachine) {
+  EXPECT_EQ(Eigen::l1CacheSize(), 32 * 1024);
+  EXPECT_EQ(Eigen::l2CacheSize(), 1024 * 1024);
+  EXPECT_EQ(Eigen::l3CacheSize(), 32 * 1024 * 1024);
+}
 
 struct BadBridge {
   const char* name;
