@@ -113,6 +113,7 @@ ordered_json test_json(const EngineRun& run) {
                     {"section_m2", 0.25 * M_PI * sample.specimen.diameter * sample.specimen.diameter},
                     {"height_m", sample.specimen.height},
                     {"axis_x_m", run.packing.specimen.axis_x},
+                    {"axis_y_m", run.packing.specimen.axis_y},
                     {"relaxation_time_s", nullptr}};
   if (sample.bridges.relaxation_time) test["relaxation_time_s"] = *sample.bridges.relaxation_time;
   return test;

@@ -5,18 +5,25 @@
 namespace pendular::effects {
 namespace {
 
-void tilt(dem_core::Simulation& simulation, const ActualSpecimen& specimen, double theta, const Draws&) {
-  const double slope = std::tan(theta * M_PI / 180.0), axis = specimen.packing.specimen.axis_x;
-  for (std::size_t k = 0; k < simulation.beads.size(); ++k)
-    simulation.top.relief[k] += slope * (simulation.beads.position[k].x() - axis);
+void tilt(dem_core::Simulation& simulation, const ActualSpecimen& specimen, double theta,
+          const Draws& draws) {
+  const double slope = std::tan(theta * M_PI / 180.0), way = 2.0 * M_PI * draws.uniform(0);
+  const double along_x = slope * std::cos(way), along_y = slope * std::sin(way);
+  const auto& cylinder = specimen.packing.specimen;
+  for (std::size_t k = 0; k < simulation.beads.size(); ++k) {
+    const Vec3& place = simulation.beads.position[k];
+    simulation.top.relief[k] +=
+        along_x * (place.x() - cylinder.axis_x) + along_y * (place.y() - cylinder.axis_y);
+  }
   dem_core::place_platens(simulation, simulation.bottom.velocity);
   dem_core::list_pairs(simulation);
 }
 
 }  // namespace
 
-/// The paper's platens are parallel. A real one may be tilted: the top platen's face rises by θ along x. It
-/// touches one side first. Lengthens the toe, the more the lower the specimen; lowers E of a short test.
+/// The paper's platens are parallel. A real one may be tilted: the top platen's face rises by θ in one
+/// direction, which is drawn. It touches one side first. Lengthens the toe, the more the lower the specimen;
+/// lowers E of a short test.
 Effect platen_tilt() {
   return {.id = "platen_tilt",
           .unit = "degrees",
@@ -27,6 +34,7 @@ Effect platen_tilt() {
           .highest = 10.0,
           .bank_from = 0.0,
           .bank_to = 2.0,
+          .draws = true,
           .simulation = tilt};
 }
 

@@ -136,12 +136,12 @@ class Bonded:
 
 class Platens:
     """Two plates that only touch. Each bead near one meets a plate of its own, set back by the relief there; all
-    plates of a platen move as one. The top one may be tilted about y."""
+    plates of a platen move as one. The top one may be tilted."""
 
     def __init__(self, bonded):
         self.bonded, self.specimen = bonded, bonded.specimen
-        slope = self.specimen.slope()
-        self.normals = [Vector3(0, 0, 1), Vector3(slope, 0, -1).normalized()]
+        along_x, along_y = self.specimen.slope()
+        self.normals = [Vector3(0, 0, 1), Vector3(along_x, along_y, -1).normalized()]
         faces = [self._faces(side) for side in (0, 1)]
         # Where they just touch the outermost beads.
         self.offset = [min(faces[0]), max(faces[1])]
@@ -151,10 +151,14 @@ class Platens:
     def _places(self):
         return [O.bodies[bead].state.pos for bead in self.bonded.beads]
 
+    def _axis(self, height):
+        test = self.specimen.test
+        return Vector3(test["axis_x_m"], test["axis_y_m"], height)
+
     def _faces(self, side):
         """Height on the axis of a platen that just touches each bead."""
         relief, normal = self.specimen.relief(side), self.normals[side]
-        radii, axis = self.specimen.diameter / 2, Vector3(self.specimen.test["axis_x_m"], 0, 0)
+        radii, axis = self.specimen.diameter / 2, self._axis(0)
         return [axis[2] + (normal.dot(place - axis) - radius + back) / normal[2]
                 for place, radius, back in zip(self._places(), radii.tolist(), relief.tolist())]
 
@@ -166,7 +170,7 @@ class Platens:
         half = 0.5 * reach
         turn = Quaternion()
         turn.setFromTwoVectors(Vector3(0, 0, 1), normal)
-        point, plates = Vector3(self.specimen.test["axis_x_m"], 0, self.offset[side]), []
+        point, plates = self._axis(self.offset[side]), []
         for k, face in enumerate(faces):
             if abs(face - self.offset[side]) > reach:
                 continue

@@ -124,8 +124,10 @@ class Specimen:
         return UM * self.theta("platen_roughness") * np.abs(drawn[platen])
 
     def slope(self):
-        """Of the top platen along x."""
-        return math.tan(math.radians(self.theta("platen_tilt")))
+        """Of the top platen along x and y, in a direction that is drawn."""
+        slope = math.tan(math.radians(self.theta("platen_tilt")))
+        way = self.random("platen_tilt").uniform(0, 2 * math.pi)
+        return slope * math.cos(way), slope * math.sin(way)
 
     def read(self, strain, force):
         """Strain and stress as the instruments read them."""

@@ -39,7 +39,7 @@ TEST(Bank, RunsEveryEffectAtPartsOfItsRangeAndInBothDirections) {
   EXPECT_EQ(plan.runs.size(), plan.requests.size());
   EXPECT_EQ(magnitudes(plan, "missing_bridges").size(), 3u);
   EXPECT_NEAR(*magnitudes(plan, "missing_bridges").rbegin(), 0.3, 1e-12);
-  EXPECT_EQ(magnitudes(plan, "platen_tilt").size(), 6u);  // does not draw
+  EXPECT_EQ(magnitudes(plan, "bridge_bending").size(), 6u);  // does not draw
   const auto friction = magnitudes(plan, "bead_friction");
   EXPECT_EQ(friction.size(), 8u);
   EXPECT_NEAR(*friction.begin(), -0.4, 1e-12);
