@@ -18,7 +18,7 @@ const std::vector<double> kStrains = {0.001,  0.002, 0.003,  0.0045, 0.006, 0.00
                                       0.055,  0.060, 0.065,  0.070,  0.075, 0.080, 0.085, 0.090,  0.10,
                                       0.11,   0.12,  0.13,   0.14,   0.15,  0.17,  0.20,  0.25,   0.30};
 constexpr double kHalf = 8e-4;         // strain within which rows are read together
-constexpr double kLeastStress = 3e-3;  // over the largest: below it a logarithm is of noise
+constexpr double kLeastStress = 3e-3;  // over the largest: far below it stresses count by their difference
 const std::vector<double> kShares = {0.8, 0.6, 0.4, 0.3};  // of the stress at a turn, in its loop
 constexpr double kHalfShare = 0.03;                        // of it, within which rows are read together
 constexpr double kSameTurn = 1.02;  // over the last strain, up to which loops are looked for
@@ -132,15 +132,27 @@ void add_loops(FeatureList& list, const Observation& observation, const Columns&
   }
 }
 
+std::vector<double> noise_of(const Observation& observation) {
+  if (observation.has("stress_sigma_pa")) return observation.column("stress_sigma_pa");
+  const auto& stress = observation.column("stress_pa");
+  return std::vector<double>(stress.size(), curve_noise({observation.column("strain"), stress}));
+}
+
+/// A stress far above `least`, more than nothing below: its logarithm is log(least) + asinh(stress / 2
+/// least), so that a load cell's noise about nothing stays what it is.
+double above_nothing(double stress, double least) {
+  return 0.5 * (stress + std::hypot(stress, 2.0 * least));
+}
+
 std::vector<Feature> readings(const Observation& observation, const Columns& columns) {
   FeatureList list(observation, Scale::aggregate);
-  const auto& seen = observation.column("stress_pa");
-  const double least = kLeastStress * *std::max_element(seen.begin(), seen.end());
+  const double least =
+      std::max(kLeastStress * largest_of(observation.column("stress_pa")), mean_of(noise_of(observation)));
   const auto strains = strains_up_to(kStrains, last_strain(observation));
   const auto stress = read_at(columns.at("strain"), columns.at("stress_pa"), strains, kHalf);
   for (std::size_t k = 0; k < strains.size(); ++k)
     if (std::isfinite(stress[k]))
-      list.ratio(fmt::format("stress_at_{:.2f}_percent", 100.0 * strains[k]), std::max(stress[k], least),
+      list.ratio(fmt::format("stress_at_{:.2f}_percent", 100.0 * strains[k]), above_nothing(stress[k], least),
                  strains[k], strains[k]);
   add_loops(list, observation, columns);
   return list.take();
@@ -148,13 +160,7 @@ std::vector<Feature> readings(const Observation& observation, const Columns& col
 
 Columns perturbed(const Observation& observation, unsigned long seed) {
   Columns columns = observation.columns;
-  auto& stress = columns["stress_pa"];
-  if (columns.contains("stress_sigma_pa")) {
-    add_noise(stress, columns.at("stress_sigma_pa"), seed, kLasting);
-  } else {
-    const double noise = curve_noise({columns.at("strain"), stress});
-    add_noise(stress, std::vector<double>(stress.size(), noise), seed, kLasting);
-  }
+  add_noise(columns["stress_pa"], noise_of(observation), seed, kLasting);
   return columns;
 }
 
