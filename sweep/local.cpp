@@ -53,7 +53,7 @@ class Children {
     for (const auto& hash : free.subspan(1))
       if (!alone_.contains(free.front()) && !alone_.contains(hash) && kind(hash) == kind(free.front()))
         hashes.push_back(hash);
-    std::size_t open = hashes.size();
+    std::size_t open = free.size();  // of other kinds, too: they are for the other cores
     for (const auto& child : children_) open += child.hashes.size();
     const std::size_t share =
         std::min({dem_core::kMostSideBySide, hashes.size(), (open + cores - 1) / cores});
