@@ -1,5 +1,5 @@
-// One specimen of a split, tested by one engine, with nothing withheld and no noise:
-//   engine_runs SPLIT.toml PACKING ENGINE MEMBER OUT
+// One specimen of a split, tested by one engine, with nothing or one effect withheld and no noise:
+//   engine_runs SPLIT.toml PACKING ENGINE MEMBER OUT [EFFECT THETA]
 // PACKING counts from 1. ENGINE is a name of blind/engine.cpp, or "own" for the simulation that diagnoses.
 // MEMBER 0 has the beads as they are, others have them moved by the split's errors of measurement (for
 // engines of the project's own program). Writes OUT.csv, the curve, OUT.field.csv, the displacements of the
@@ -8,12 +8,15 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "base/random.h"
 #include "blind/engine.h"
 #include "blind/truth.h"
+#include "effects/list.h"
 
 namespace {
 
@@ -39,11 +42,12 @@ void write_field(const fs::path& path, const TrueTest& test) {
 }
 
 void run(const Split& split, std::size_t number, const std::string& engine, std::uint64_t member,
-         const fs::path& out) {
+         const fs::path& out, std::map<std::string, double> effects) {
   const SharedPacking& packing = split.packings.at(number - 1);
   CasePlan plan;
   plan.name = out.filename().string();
   plan.packing = number - 1;
+  plan.effects = std::move(effects);
   if (engine != "own") plan.engine = engine;
   const Sample believed = believed_a(split, packing);
   const std::uint64_t seed = random_bits(packing.seed, 0) >> 1;
@@ -62,13 +66,15 @@ void run(const Split& split, std::size_t number, const std::string& engine, std:
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 6) {
-    fmt::print(stderr, "engine_runs SPLIT.toml PACKING ENGINE MEMBER OUT\n");
+  if (argc != 6 && argc != 8) {
+    fmt::print(stderr, "engine_runs SPLIT.toml PACKING ENGINE MEMBER OUT [EFFECT THETA]\n");
     return 2;
   }
   try {
+    std::map<std::string, double> effects;
+    if (argc == 8) effects[effects::find_effect(argv[6], "engine_runs").id] = std::strtod(argv[7], nullptr);
     run(read_split(argv[1], {}), std::strtoul(argv[2], nullptr, 10), argv[3],
-        std::strtoull(argv[4], nullptr, 10), argv[5]);
+        std::strtoull(argv[4], nullptr, 10), argv[5], std::move(effects));
   } catch (const Error& error) {
     fmt::print(stderr, "{}\n", error.what());
     return error.exit_status();
