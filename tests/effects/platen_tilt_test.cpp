@@ -48,7 +48,7 @@ TEST(PlatenTilt, ChainsTouchOneAfterTheOther) {
   Sample sample = with("platen_tilt", 0.05, 1e-3);
   sample.compression.relax_to = 1e-5;
   const auto done = run(chains(), sample);
-  const auto& back = tilted(0.05, 1).top.relief;
+  const std::vector<double> back = tilted(0.05, 1).top.relief;
   const double k = chain_stiffness(5760.0), first = *std::min_element(back.begin(), back.end());
   const double height = (5.0 * (1.0 + kGap) + 1.0) * kBeadDiameter;
   const double section = 0.25 * M_PI * std::pow(sample.specimen.diameter, 2);

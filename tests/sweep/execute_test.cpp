@@ -145,6 +145,13 @@ std::vector<RunRequest> family() {
   return requests;
 }
 
+/// Of the processes that made a store's runs.
+std::size_t logs_in(const fs::path& store) {
+  std::size_t logs = 0;
+  for (const auto& entry : fs::directory_iterator(store / "logs")) logs += entry.is_regular_file();
+  return logs;
+}
+
 TEST(Execute, RunsSideBySideAreThoseMadeAlone) {
   ScratchFolder folder;
   Store alone(folder / "alone"), together(folder / "together"), killed(folder / "killed");
@@ -171,10 +178,24 @@ TEST(Execute, RunsSideBySideAreThoseMadeAlone) {
   EXPECT_EQ(test::run_bytes(folder / "together"), test::run_bytes(folder / "alone"));
   EXPECT_EQ(test::run_bytes(folder / "killed"), test::run_bytes(folder / "alone"));
   // One process has made them: its log is of the first, and the one that failed has a log of its own.
-  std::size_t logs = 0;
-  for (const auto& entry : fs::directory_iterator(folder / "together" / "logs"))
-    logs += entry.is_regular_file();
-  EXPECT_EQ(logs, 2u);
+  EXPECT_EQ(logs_in(folder / "together"), 2u);
+}
+
+TEST(Execute, EachKindOfRunsIsMadeSideBySideOnACoreOfItsOwn) {
+  ScratchFolder folder;
+  Store store(folder / "store");
+  std::vector<RunRequest> requests;
+  for (const auto springs : {TangentialSprings::one, TangentialSprings::two})
+    for (int n = 0; n < 7; ++n) {
+      requests.push_back(tiny_request(4));
+      requests.back().sample.contact.tangential_springs = springs;
+      requests.back().sample.contact.friction = 0.5 - 0.03 * n;
+    }
+  ExecuteOptions options = with_program();
+  options.cores = 2;
+  for (const auto& outcome : execute(store, requests, options))
+    EXPECT_EQ(outcome.status, RunStatus::done) << outcome.message;
+  EXPECT_EQ(logs_in(folder / "store"), 2u);
 }
 
 }  // namespace
