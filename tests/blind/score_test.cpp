@@ -406,12 +406,13 @@ TEST_F(Score, WritesATableThatCanBeReadBack) {
 TEST_F(Score, ItsTablesGoIntoTheDocumentation) {
   const auto all = verdicts(open_seals(folder / "split"), reports);
   write_scores(folder / "score", all, score(all, false), {"0.1.0", "pendular blind score", 1, {}});
-  fs::copy_file(fs::path(pendular::test::source_folder()) / "docs/blind.md", folder / "blind.md");
+  for (const char* name : {"blind.md", "blind-scores.csv"})
+    fs::copy_file(fs::path(pendular::test::source_folder()) / "docs" / name, folder / name);
   const auto written = [&](const std::string& scores) {
-    return pendular::test::shell(
-        folder.path(), pendular::test::source_folder() + "/scripts/blind-docs --page blind.md " + scores);
+    return pendular::test::shell(folder.path(),
+        pendular::test::source_folder() + "/scripts/blind-docs --page blind.md --kept blind-scores.csv " + scores);
   };
-  ASSERT_EQ(written("'Small split=score' score").status, 0);
+  ASSERT_EQ(written("--version v1 'Small split=score' score").status, 0);
   const std::string page = read_text(folder / "blind.md");
   const auto at = [&](const std::string& words) { return page.find(words); };
   EXPECT_LT(at("<!-- figures"), at("### Small split\n"));
@@ -421,15 +422,22 @@ TEST_F(Score, ItsTablesGoIntoTheDocumentation) {
   EXPECT_LT(at("### score\n"), at("<!-- end of figures -->\n"));
   EXPECT_LT(at("<!-- end of figures -->\n"), at("## Making\n"));
   EXPECT_EQ(at("All scores"), std::string::npos);
-  ASSERT_EQ(written("'Small split=score' score").status, 0);  // again: the same page
+  EXPECT_LT(at("| | score, 7 cases |"), at("<!-- end of all scores"));
+  const std::string kept = read_text(folder / "blind-scores.csv");
+  EXPECT_NE(kept.find("Small split,v1,0,all_in_set,,4,7\n"), std::string::npos) << kept;
+  ASSERT_EQ(written("--version v1 'Small split=score' score").status, 0);  // again: the same page
+  EXPECT_EQ(read_text(folder / "blind.md"), page);
+  EXPECT_EQ(read_text(folder / "blind-scores.csv"), kept);
+  ASSERT_EQ(written("").status, 0);  // without scores: the table of all is made again
   EXPECT_EQ(read_text(folder / "blind.md"), page);
 
-  const auto missing = written("nowhere");
+  EXPECT_EQ(written("score").status, 2);
+  const auto missing = written("--version v1 nowhere");
   EXPECT_EQ(missing.status, 3);
   EXPECT_NE(missing.errors.find("nowhere/score.md"), std::string::npos);
   EXPECT_EQ(read_text(folder / "blind.md"), page);
   write_text(folder / "blind.md", "no marks\n");
-  EXPECT_EQ(written("score").status, 3);
+  EXPECT_EQ(written("--version v1 score").status, 3);
 }
 
 TEST_F(Score, ABrokenSealIsAnError) {
