@@ -29,9 +29,7 @@ void count_outside(const Replayed& one, const Correction& correction, OutsideRep
 /// Adds what a pair shows of them, where each of its effects would be told by itself.
 void count_pair(const Replayed& one, const Correction& correction, PairReplay& pairs) {
   for (const auto& [id, theta] : one.truth)
-    if (const auto from = correction.told_from.find(id);
-        from != correction.told_from.end() && !from->second.tells(theta))
-      return;
+    if (!correction.tells(id, theta)) return;
   const auto said = corrected(one.said, correction);
   const std::string truth = truth_of(one);
   ++pairs.cases;

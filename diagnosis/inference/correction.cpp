@@ -69,6 +69,15 @@ std::vector<std::string> plainer(const std::string& id) {
   return ids;
 }
 
+std::vector<std::string> not_told_from(const std::string& id, const std::map<std::string, double>& magnitudes,
+                                       const Correction& correction) {
+  std::vector<std::string> told, small;
+  for (const auto& [effect, theta] : magnitudes)
+    (correction.tells(effect, theta) ? told : small).push_back(effect);
+  if (correction.untold_pairs.contains(id) || (told.empty() && !small.empty())) return plainer(id);
+  return small.empty() ? small : told;
+}
+
 double beyond_plainer(const Hypothesis& pair, const std::vector<Hypothesis>& said) {
   double best = -std::numeric_limits<double>::infinity();
   for (const auto& id : plainer(pair.id))
@@ -129,19 +138,16 @@ const char* why_unknown(const std::vector<Hypothesis>& said, const Correction& c
 
 const Hypothesis* stand_in(const Hypothesis& h, const std::vector<Hypothesis>& said,
                            const Correction& correction) {
-  if (h.magnitudes.size() == 1) {
-    const Hypothesis* none = said_of(said, kNone);
-    const auto from = correction.told_from.find(h.id);
-    const bool told = from == correction.told_from.end() || from->second.tells(h.magnitudes.front().mean);
-    return !told && none && none->probability > kThresholds.strong * h.probability ? none : nullptr;
-  }
-  if (!correction.untold_pairs.contains(h.id)) return nullptr;
+  std::map<std::string, double> means;
+  const auto ids = effects_in(h.id);
+  for (std::size_t k = 0; k < h.magnitudes.size(); ++k) means[ids[k]] = h.magnitudes[k].mean;
+  const double least = (h.magnitudes.size() == 1 ? kThresholds.strong : 1.0) * h.probability;
   const double strong = correction.temperature * std::log(kThresholds.strong);
   const Hypothesis* best = nullptr;
-  for (const auto& id : plainer(h.id))
+  for (const auto& id : not_told_from(h.id, means, correction))
     if (const Hypothesis* other = said_of(said, id);
-        other && other->probability > std::max(h.probability, best ? best->probability : 0.0) &&
-        h.log_evidence - other->log_evidence < strong)
+        other && other->probability > std::max(least, best ? best->probability : 0.0) &&
+        (ids.size() == 1 || h.log_evidence - other->log_evidence < strong))
       best = other;
   return best;
 }

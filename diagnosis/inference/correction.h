@@ -49,6 +49,12 @@ struct Correction {
   double widening_of_limits = 2.0;            ///< of upper limits of |θ|, beside the latter
   std::map<std::string, ToldFrom> told_from = {};  ///< of effects; one that is not in it, at any magnitude
   std::set<std::string> untold_pairs = {};         ///< that are not told from none or an effect of theirs
+
+  /// Whether an effect of this magnitude is told from none.
+  bool tells(const std::string& effect, double theta) const {
+    const auto from = told_from.find(effect);
+    return from == told_from.end() || from->second.tells(theta);
+  }
 };
 
 /// What a set of explanations is made of.
@@ -78,10 +84,9 @@ const char* why_unknown(const std::vector<Hypothesis>& corrected, const Correcti
 /// probable.
 AmbiguitySet set_of(const std::vector<Hypothesis>& corrected, const Correction& correction);
 
-/// What stands in a set for an explanation that is not told from it: none, where it is ten times as probable,
-/// for an effect whose mean magnitude is below those that are told from none; for an untold pair the most
-/// probable of its effects and none that is more probable, unless the pair's evidence is ten times as large.
-/// Null where nothing does.
+/// What stands in a set for an explanation that is not told from it at its mean magnitudes: none, where it is
+/// ten times as probable, for an effect; the most probable of not_told_from() for a pair, if that is more
+/// probable and the pair's evidence not ten times as large. Null where nothing does.
 const Hypothesis* stand_in(const Hypothesis& h, const std::vector<Hypothesis>& corrected,
                            const Correction& correction);
 
@@ -94,6 +99,11 @@ bool holds(const AmbiguitySet& set, const std::string& id);
 /// What may stand for an explanation that is not told from it: none for an effect; its effects and none for a
 /// pair.
 std::vector<std::string> plainer(const std::string& id);
+
+/// Explanations that one with these magnitudes is not told from: none for an effect that is too small to be;
+/// for a pair with one such effect the other effect, for an untold pair and one with two all plainer ones.
+std::vector<std::string> not_told_from(const std::string& id, const std::map<std::string, double>& magnitudes,
+                                       const Correction& correction);
 
 /// What a pair's evidence has, as a logarithm, beyond the best of what may stand for it.
 double beyond_plainer(const Hypothesis& pair, const std::vector<Hypothesis>& said);

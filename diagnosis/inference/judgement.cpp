@@ -135,10 +135,8 @@ bool is_in(const std::vector<std::string>& ids, const std::string& id) {
 }
 
 bool told_at_no_magnitude(const effects::Effect& effect, const Correction& correction) {
-  const auto from = correction.told_from.find(effect.id);
-  if (from == correction.told_from.end()) return false;
-  return !(effect.lowest < 0.0 && from->second.tells(effect.lowest)) &&
-         !(effect.highest > 0.0 && from->second.tells(effect.highest));
+  return !(effect.lowest < 0.0 && correction.tells(effect.id, effect.lowest)) &&
+         !(effect.highest > 0.0 && correction.tells(effect.id, effect.highest));
 }
 
 /// After the set. Effects outside it that none stands for there, or that are told at no magnitude, and how

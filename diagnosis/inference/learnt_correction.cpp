@@ -97,13 +97,6 @@ bool holds_any(const AmbiguitySet& set, const std::vector<std::string>& ids) {
   return std::any_of(ids.begin(), ids.end(), [&](const std::string& id) { return holds(set, id); });
 }
 
-/// Whether a run's effect is told from none, or its pair from none and its effects.
-bool told_apart(const Replayed& one, const std::string& truth, const Correction& correction) {
-  if (one.truth.size() != 1) return !correction.untold_pairs.contains(truth);
-  const auto from = correction.told_from.find(truth);
-  return from == correction.told_from.end() || from->second.tells(one.truth.begin()->second);
-}
-
 /// Truths in the order of the level that they need at the mean, split in two where the parts differ most; one
 /// part where either would have too few runs.
 std::vector<std::vector<std::string>> clusters_of(const std::map<std::string, std::vector<double>>& needed) {
@@ -137,8 +130,8 @@ void learn_levels(const std::vector<std::vector<Hypothesis>>& said, const Cases&
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const std::string truth = truth_of(*cases[k]);
     double level = before(said[k], truth);
-    if (!told_apart(*cases[k], truth, found))
-      for (const auto& id : plainer(truth)) level = std::min(level, before(said[k], id));
+    for (const auto& id : not_told_from(truth, cases[k]->truth, found))
+      level = std::min(level, before(said[k], id));
     needed[truth].push_back(level);
   }
   std::vector<double> beyond;  // levels that are needed where a cluster's own does not do
@@ -279,7 +272,7 @@ Cases spanned(const Cases& singles) {
 
 bool right(const AmbiguitySet& set, const Replayed& one, const Correction& correction) {
   const std::string truth = truth_of(one);
-  return holds(set, truth) || (!told_apart(one, truth, correction) && holds_any(set, plainer(truth)));
+  return holds(set, truth) || holds_any(set, not_told_from(truth, one.truth, correction));
 }
 
 double least_told(std::vector<ReplayedMagnitude> runs, double share) {

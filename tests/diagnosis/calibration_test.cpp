@@ -246,8 +246,10 @@ TEST(Calibration, EffectsThatLookLikeNoneAreListed) {
   EXPECT_GE(promise.in_set, 0.78);
   const auto set = [&](std::initializer_list<std::pair<const char*, double>> said) {
     std::vector<Hypothesis> hypotheses;
-    for (const auto& [id, probability] : said)
-      hypotheses.push_back({id, 0.0, probability, {{1.0, {0.0, 2.0}}}, 0.0});
+    for (const auto& [id, probability] : said) {
+      hypotheses.push_back({id, 0.0, probability, {}, 0.0});
+      if (!effects_in(id).empty()) hypotheses.back().magnitudes = {{1.0, {0.0, 2.0}}};
+    }
     Correction correction = promise.correction;
     correction.level = 0.9, correction.levels.clear(), correction.gate = 1.0;
     return set_of(hypotheses, correction).ids;

@@ -60,6 +60,30 @@ TEST(Correction, NoneStandsForAnEffectTooSmallToBeToldWhereItIsTenTimesAsProbabl
   EXPECT_EQ(set_of(said(0.083, 1.9), correction).ids, (Ids{"none", "b", "a"}));
 }
 
+TEST(Correction, AnEffectStandsForAPairWhoseOtherEffectIsTooSmallToBeTold) {
+  Correction correction;
+  correction.level = 0.99;
+  correction.told_from["a"] = correction.told_from["b"] = {INFINITY, 2.0};
+  const auto said = [](double of_a, double of_b) {
+    const Magnitude a{of_a, {0.0, 9.0}}, b{of_b, {0.0, 9.0}};
+    return std::vector<Hypothesis>{{"none", 0.0, 0.4, {}, 0.0},
+                                   {"a", 0.0, 0.3, {a}, 0.0},
+                                   {"a+b", 0.0, 0.2, {a, b}, 0.0},
+                                   {"b", 0.0, 0.1, {b}, 0.0}};
+  };
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(set_of(said(3.0, 1.9), correction).ids, (Ids{"none", "a", "b"}));
+  EXPECT_EQ(set_of(said(3.0, 2.0), correction).ids, (Ids{"none", "a", "a+b", "b"}));
+  // What is left, b, is less probable than the pair: the pair stands by itself.
+  EXPECT_EQ(set_of(said(1.9, 3.0), correction).ids, (Ids{"none", "a", "a+b", "b"}));
+  EXPECT_EQ(stand_in(said(1.9, 1.9)[2], said(1.9, 1.9), correction)->id, "none");
+  EXPECT_NEAR(set_of(said(3.0, 1.9), correction).probability, 1.0, 1e-12);
+  // Evidence ten times as large lets the pair in.
+  auto strong = said(3.0, 1.9);
+  strong[2].log_evidence = correction.temperature * std::log(11.0);
+  EXPECT_EQ(set_of(strong, correction).ids, (Ids{"none", "a", "a+b", "b"}));
+}
+
 TEST(Correction, WhatHasLessThanAHundredthIsNotBesideALeadingUnknown) {
   Correction correction;
   correction.level = 0.95;
