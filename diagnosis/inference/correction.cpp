@@ -152,6 +152,12 @@ const Hypothesis* stand_in(const Hypothesis& h, const std::vector<Hypothesis>& s
   return best;
 }
 
+const Hypothesis* stands_for(const Hypothesis& h, const AmbiguitySet& set,
+                             const std::vector<Hypothesis>& said, const Correction& correction) {
+  const Hypothesis* other = stand_in(h, said, correction);
+  return other && !holds(set, h.id) && holds(set, other->id) ? other : nullptr;
+}
+
 AmbiguitySet set_of(const std::vector<Hypothesis>& said, const Correction& correction) {
   AmbiguitySet set;
   double known = 0.0;
@@ -173,10 +179,8 @@ AmbiguitySet set_of(const std::vector<Hypothesis>& said, const Correction& corre
     held += h.probability / known;
   }
   if (!first && said_of(said, kUnknown) && why_unknown(said, correction)) set.ids.push_back(kUnknown);
-  for (const auto& h : said) {
-    const Hypothesis* other = stand_in(h, said, correction);
-    if (holds(set, other ? other->id : h.id)) set.probability += h.probability;
-  }
+  for (const auto& h : said)
+    if (holds(set, h.id) || stands_for(h, set, said, correction)) set.probability += h.probability;
   return set;
 }
 

@@ -90,6 +90,10 @@ AmbiguitySet set_of(const std::vector<Hypothesis>& corrected, const Correction& 
 const Hypothesis* stand_in(const Hypothesis& h, const std::vector<Hypothesis>& corrected,
                            const Correction& correction);
 
+/// The member of a set of corrected explanations that stands for one outside it; null where none does.
+const Hypothesis* stands_for(const Hypothesis& h, const AmbiguitySet& set,
+                             const std::vector<Hypothesis>& corrected, const Correction& correction);
+
 /// The explanation of this name; null where there is none.
 const Hypothesis* said_of(const std::vector<Hypothesis>& said, const std::string& id);
 

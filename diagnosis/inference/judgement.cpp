@@ -130,10 +130,6 @@ void set_unlike(const Experiment& experiment, Diagnosis& diagnosis) {
   if (odds / (1.0 + odds) > kThresholds.lets_unknown_in) diagnosis.unlike = what;
 }
 
-bool is_in(const std::vector<std::string>& ids, const std::string& id) {
-  return std::find(ids.begin(), ids.end(), id) != ids.end();
-}
-
 bool told_at_no_magnitude(const effects::Effect& effect, const Correction& correction) {
   return !(effect.lowest < 0.0 && correction.tells(effect.id, effect.lowest)) &&
          !(effect.highest > 0.0 && correction.tells(effect.id, effect.highest));
@@ -141,14 +137,12 @@ bool told_at_no_magnitude(const effects::Effect& effect, const Correction& corre
 
 /// After the set. Effects outside it that none stands for there, or that are told at no magnitude, and how
 /// large they may be.
-void set_unseen(const std::vector<Hypothesis>& hypotheses, Diagnosis& diagnosis) {
+void set_unseen(const AmbiguitySet& set, const std::vector<Hypothesis>& hypotheses, Diagnosis& diagnosis) {
   const Correction& correction = diagnosis.promise.correction;
-  const auto& set = diagnosis.ambiguity_set;
   for (const auto& h : hypotheses) {
-    if (h.magnitudes.size() != 1 || is_in(set, h.id)) continue;
+    if (h.magnitudes.size() != 1 || holds(set, h.id)) continue;
     const effects::Effect& effect = effects::find_effect(h.id, "diagnosis");
-    const bool behind = is_in(set, kNone) && stand_in(h, hypotheses, correction);
-    if (!behind && !told_at_no_magnitude(effect, correction)) continue;
+    if (!stands_for(h, set, hypotheses, correction) && !told_at_no_magnitude(effect, correction)) continue;
     const double largest = std::max(std::fabs(effect.lowest), std::fabs(effect.highest));
     diagnosis.unseen.push_back({h.id, effect.unit, std::min(largest, upper_limit(h, correction))});
   }
@@ -160,9 +154,9 @@ bool is_unseen(const Diagnosis& diagnosis, const std::string& id) {
 }
 
 /// After the set and the unseen, which are not excluded. `directions`: of the reduced space in which χ² is.
-void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
-                      Eigen::Index directions, const Rules& rules, const BankPlan& plan,
-                      Diagnosis& diagnosis) {
+void set_explanations(const Problem& problem, const AmbiguitySet& set,
+                      const std::vector<Hypothesis>& hypotheses, Eigen::Index directions, const Rules& rules,
+                      const BankPlan& plan, Diagnosis& diagnosis) {
   double chi_squared_of_none = 0.0;
   for (const auto& h : hypotheses)
     if (h.id == "none") chi_squared_of_none = h.chi_squared;
@@ -170,7 +164,7 @@ void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hyp
     Explanation e{h.id, h.probability, h.magnitudes, {}, h.chi_squared / static_cast<double>(directions)};
     const auto ids = effects_in(h.id);
     for (const auto& id : ids) e.units.push_back(effects::find_effect(id, "diagnosis").unit);
-    if (ids.size() == 1 && !is_in(diagnosis.ambiguity_set, h.id) && !is_unseen(diagnosis, h.id) &&
+    if (ids.size() == 1 && !holds(set, h.id) && !is_unseen(diagnosis, h.id) &&
         h.probability < rules.excluded &&
         marginal(hypotheses, h.id) < kThresholds.with_pairs * rules.excluded) {
       const auto row =
@@ -179,6 +173,9 @@ void set_explanations(const Problem& problem, const std::vector<Hypothesis>& hyp
       e.reason = why_excluded(problem, h, chi_squared_of_none, visible, rules);
       e.excluded = visible >= rules.separable;
     }
+    if (const Hypothesis* member = stands_for(h, set, hypotheses, diagnosis.promise.correction);
+        member && !e.excluded)
+      e.reason = "not told from " + plain_name(member->id);
     if (h.id == "unknown")
       if (const char* why = why_unknown(hypotheses, diagnosis.promise.correction))
         e.reason = diagnosis.unlike.empty() ? why : diagnosis.unlike;
@@ -318,8 +315,8 @@ void judge(const Problem& problem, const Rules& rules, const BankPlan& plan, con
   const Eigen::Index directions = ReducedSpace(readings.gap, readings.signatures).size();
   const AmbiguitySet set = set_of(hypotheses, diagnosis.promise.correction);
   diagnosis.ambiguity_set = set.ids, diagnosis.set_probability = set.probability;
-  set_unseen(hypotheses, diagnosis);
-  set_explanations(problem, within_range(hypotheses), directions, rules, plan, diagnosis);
+  set_unseen(set, hypotheses, diagnosis);
+  set_explanations(problem, set, within_range(hypotheses), directions, rules, plan, diagnosis);
   diagnosis.nearest_signature = nearest_signature(hypotheses, directions);
   const Hypothesis& best = hypotheses.front();
   diagnosis.p_value = p_value_of(best.chi_squared, directions, readings.gap.dof);

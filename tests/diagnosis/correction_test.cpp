@@ -72,7 +72,12 @@ TEST(Correction, AnEffectStandsForAPairWhoseOtherEffectIsTooSmallToBeTold) {
                                    {"b", 0.0, 0.1, {b}, 0.0}};
   };
   using Ids = std::vector<std::string>;
-  EXPECT_EQ(set_of(said(3.0, 1.9), correction).ids, (Ids{"none", "a", "b"}));
+  const AmbiguitySet set = set_of(said(3.0, 1.9), correction);
+  EXPECT_EQ(set.ids, (Ids{"none", "a", "b"}));
+  const auto all = said(3.0, 1.9);
+  EXPECT_EQ(stands_for(all[2], set, all, correction), &all[1]);
+  EXPECT_EQ(stands_for(all[1], set, all, correction), nullptr);  // is in it
+  EXPECT_EQ(stands_for(all[2], {{"none"}, 0.4}, all, correction), nullptr);
   EXPECT_EQ(set_of(said(3.0, 2.0), correction).ids, (Ids{"none", "a", "a+b", "b"}));
   // What is left, b, is less probable than the pair: the pair stands by itself.
   EXPECT_EQ(set_of(said(1.9, 3.0), correction).ids, (Ids{"none", "a", "a+b", "b"}));
