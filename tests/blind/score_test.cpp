@@ -3,98 +3,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/csv.h"
 #include "base/error.h"
-#include "blind/case_folder.h"
-#include "blind/score_files.h"
-#include "places.h"
-#include "program.h"
-#include "scratch.h"
+#include "seven_cases.h"
 
 namespace pendular::blind {
-namespace {
 
 using nlohmann::json;
-using pendular::test::ScratchFolder;
-
-/// A sealed case with its hash, as `blind make` leaves it.
-std::string seal(const fs::path& root, const std::string& name, const std::string& stratum,
-                 const std::string& answer, const json& effects, const std::string& mechanism = "",
-                 const json& more = json::object()) {
-  json truth = {{"case", name},
-                {"stratum", stratum},
-                {"answer", answer},
-                {"law", "paper"},
-                {"effects", effects},
-                {"packing", 1},
-                {"observed", "second_specimen"}};
-  truth["beliefs"]["contact.friction"] = {{"off_by_sigmas", -2.0}};
-  if (!mechanism.empty()) truth["mechanism"] = {{"id", mechanism}, {"theta", 0.5}};
-  truth.update(more);
-  make_folder(root / "sealed");
-  write_text(root / "sealed" / (name + ".json"), truth.dump());
-  return name + "," + sha256_of(root / "sealed" / (name + ".json")) + "\n";
-}
-
-json claim(const std::string& id, double probability, double magnitude = 0.0, double low = 0.0,
-           double high = 0.0) {
-  return {{"id", id}, {"probability", probability}, {"magnitude", magnitude}, {"interval_90", {low, high}}};
-}
-
-void report(const fs::path& folder, const json& hypotheses, const json& set, double withheld = 0.0,
-            double retuned = 0.0) {
-  json diagnosis = {{"hypotheses", hypotheses}, {"ambiguity_set", set}};
-  diagnosis["shrinkage"]["withheld"] = {{"before", 2.0}, {"fraction", withheld}};
-  diagnosis["shrinkage"]["controls"] = {{"modulus_retuned", retuned}, {"wrong_effect", 0.1}};
-  make_folder(folder);
-  write_text(folder / "diagnosis.json", diagnosis.dump());
-}
-
-/// Adds to the report of a case.
-void add_to_report(const fs::path& folder, const json& more) {
-  json diagnosis = json::parse(read_text(folder / "diagnosis.json"));
-  diagnosis.update(more);
-  write_text(folder / "diagnosis.json", diagnosis.dump());
-}
-
-/// Seven cases of which all scores can be computed by hand.
-class Score : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const fs::path root = folder / "split";
-    const json friction = {{{"id", "bead_friction"}, {"theta", 0.2}}};
-    const json missing = {{{"id", "missing_bridges"}, {"theta", 0.1}}};
-    const json both = {{{"id", "missing_bridges"}, {"theta", 0.1}},
-                       {{"id", "bead_friction"}, {"theta", 0.2}}};
-    std::string seals = "case,sha256\n";
-    seals += seal(root, "c1", "library", "missing_bridges", missing);
-    seals += seal(root, "c2", "library", "bead_friction", friction);
-    seals += seal(root, "c3", "none", "none", json::array());
-    seals += seal(root, "c4", "none", "none", json::array());
-    seals += seal(root, "c5", "outside", "unknown", json::array(), "crack");
-    seals += seal(root, "c6", "outside", "unknown", json::array(), "grit");
-    seals += seal(root, "c7", "pair", "missing_bridges+bead_friction", both);
-    write_text(root / "seals.csv", seals);
-    // Right, alone in its set, θ off by a tenth and inside its interval.
-    report(reports / "c1", {claim("missing_bridges", 0.8, 0.11, 0.08, 0.14), claim("none", 0.2)},
-           {"missing_bridges"}, 0.8, 0.3);
-    // In the set but not first; θ off by half and outside its interval.
-    report(reports / "c2",
-           {claim("none", 0.6), claim("bead_friction", 0.3, 0.1, 0.05, 0.15), claim("unknown", 0.1)},
-           {"none", "bead_friction"}, 0.4, 0.2);
-    report(reports / "c3", {claim("none", 0.9), claim("unknown", 0.1)}, {"none"});
-    report(reports / "c4", {claim("platen_tilt", 0.95), claim("none", 0.05)}, {"platen_tilt"});
-    report(reports / "c5", {claim("unknown", 0.7), claim("none", 0.3)}, {"unknown", "none"});
-    report(reports / "c6", {claim("platen_tilt", 0.92), claim("unknown", 0.08)}, {"platen_tilt"});
-    // c7 has no report.
-  }
-  Scores scores() { return score(verdicts(open_seals(folder / "split"), reports), without_truth(reports)); }
-
-  ScratchFolder folder;
-  fs::path reports = folder / "reports";
-};
-
-}  // namespace
+using namespace seven_cases;
 
 TEST_F(Score, CountsNames) {
   const Scores s = scores();
@@ -382,62 +297,6 @@ TEST_F(Score, ReportsThatCannotBeReadAreFailures) {
   const Scores s = scores();
   EXPECT_EQ(s.failed, 3u);
   EXPECT_EQ(s.all.exact.hits, 1u);
-}
-
-TEST_F(Score, WritesATableThatCanBeReadBack) {
-  const auto all = verdicts(open_seals(folder / "split"), reports);
-  write_scores(folder / "score", all, score(all, false), {"0.1.0", "pendular blind score", 1, {}});
-  const CsvTable table =
-      read_csv(folder / "score/cases.csv", {"case", "stratum", "p_answer", "exact", "status", "failure"});
-  ASSERT_EQ(table.rows(), 7u);
-  EXPECT_NEAR(table.numbers("p_answer")[1], 0.3, 1e-9);
-  EXPECT_EQ(table.texts("status")[6], "failed");
-  EXPECT_EQ(table.texts("failure")[6], "no diagnosis.json");
-  const json written = json::parse(read_text(folder / "score/score.json"));
-  EXPECT_EQ(written["all"]["exact"]["hits"], 3);
-  EXPECT_EQ(written["kept_by_stratum"]["none"]["reliability"].size(), 5u);
-  EXPECT_EQ(written["all_by_class"]["cases"], 7);
-  const std::string page = read_text(folder / "score/score.md");
-  EXPECT_NE(page.find("3 of 7, 43 %"), std::string::npos);
-  for (const char* heading : {"By name and by class", "Promised and reached", "Reliability"})
-    EXPECT_NE(page.find(std::string("\n## ") + heading + "\n"), std::string::npos) << heading;
-}
-
-TEST_F(Score, ItsTablesGoIntoTheDocumentation) {
-  const auto all = verdicts(open_seals(folder / "split"), reports);
-  write_scores(folder / "score", all, score(all, false), {"0.1.0", "pendular blind score", 1, {}});
-  for (const char* name : {"blind.md", "blind-scores.csv"})
-    fs::copy_file(fs::path(pendular::test::source_folder()) / "docs" / name, folder / name);
-  const auto written = [&](const std::string& scores) {
-    return pendular::test::shell(folder.path(),
-        pendular::test::source_folder() + "/scripts/blind-docs --page blind.md --kept blind-scores.csv " + scores);
-  };
-  ASSERT_EQ(written("--version v1 'Small split=score' score").status, 0);
-  const std::string page = read_text(folder / "blind.md");
-  const auto at = [&](const std::string& words) { return page.find(words); };
-  EXPECT_LT(at("<!-- figures"), at("### Small split\n"));
-  EXPECT_LT(at("### Small split\n"), at("7 cases, 1 without a diagnosis"));
-  EXPECT_LT(at("#### By name and by class\n"), at("#### Reliability\n"));
-  EXPECT_LT(at("#### Reliability\n"), at("### score\n"));
-  EXPECT_LT(at("### score\n"), at("<!-- end of figures -->\n"));
-  EXPECT_LT(at("<!-- end of figures -->\n"), at("## Making\n"));
-  EXPECT_EQ(at("All scores"), std::string::npos);
-  EXPECT_LT(at("| | score, 7 cases |"), at("<!-- end of all scores"));
-  const std::string kept = read_text(folder / "blind-scores.csv");
-  EXPECT_NE(kept.find("Small split,v1,0,all_in_set,,4,7\n"), std::string::npos) << kept;
-  ASSERT_EQ(written("--version v1 'Small split=score' score").status, 0);  // again: the same page
-  EXPECT_EQ(read_text(folder / "blind.md"), page);
-  EXPECT_EQ(read_text(folder / "blind-scores.csv"), kept);
-  ASSERT_EQ(written("").status, 0);  // without scores: the table of all is made again
-  EXPECT_EQ(read_text(folder / "blind.md"), page);
-
-  EXPECT_EQ(written("score").status, 2);
-  const auto missing = written("--version v1 nowhere");
-  EXPECT_EQ(missing.status, 3);
-  EXPECT_NE(missing.errors.find("nowhere/score.md"), std::string::npos);
-  EXPECT_EQ(read_text(folder / "blind.md"), page);
-  write_text(folder / "blind.md", "no marks\n");
-  EXPECT_EQ(written("--version v1 score").status, 3);
 }
 
 TEST_F(Score, ABrokenSealIsAnError) {
