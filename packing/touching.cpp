@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "packing/bridges.h"
 
@@ -10,7 +9,7 @@ namespace pendular {
 namespace {
 
 constexpr double kNear = 3.0, kFar = 6.0;  // standard errors between which pairs are taken to be apart
-constexpr int kRounds = 4, kSweeps = 400;
+constexpr int kRounds = 40, kSweeps = 3000;
 constexpr double kClosed = 1e-3;          // of a standard error
 constexpr double kCountsAsClosed = 1e-2;  // of a standard error: later closures have moved the pair a little
 constexpr double kRounding = 1e-9;        // of a diameter
@@ -28,16 +27,28 @@ double largest_sigma(const std::vector<Bead>& beads) {
   return std::sqrt(2.0 * centre * centre + 0.5 * diameter * diameter);
 }
 
-/// Moves two beads until they touch, each by its share of the gap's variance. Returns what was off, in
-/// standard errors.
-double close(Bead& a, Bead& b, double sigma_gap) {
-  const double off = gap(a, b), step = off / (sigma_gap * sigma_gap);
+/// Two beads that do not overlap, and touch where they are closed.
+struct Contact {
+  Bridge pair;
+  bool closed = false;
+  double push = 0.0;  ///< by which they have been moved apart, as a multiplier of the gap
+};
+
+/// Moves two beads until they touch, each by its share of the gap's variance; those that are not closed come
+/// no nearer than they would be had they not been moved apart. Returns by how much, in standard errors.
+double meet(Contact& contact, std::vector<Bead>& beads) {
+  Bead &a = beads[contact.pair.i], &b = beads[contact.pair.j];
+  const double sigma = contact.pair.sigma_gap;
+  double step = gap(a, b) / (sigma * sigma);
+  if (!contact.closed) step = std::min(step, contact.push);
+  if (step == 0.0) return 0.0;
+  contact.push -= step;
   const Vec3 n = (a.centre - b.centre).normalized();
   a.centre -= step * a.sigma_centre * a.sigma_centre * n;
   b.centre += step * b.sigma_centre * b.sigma_centre * n;
   a.diameter += 0.5 * step * a.sigma_diameter * a.sigma_diameter;
   b.diameter += 0.5 * step * b.sigma_diameter * b.sigma_diameter;
-  return std::fabs(off) / sigma_gap;
+  return std::fabs(step) * sigma;
 }
 
 /// One flat end of a specimen: height counts from outside, along `way` (1: from below, −1: from above).
@@ -58,6 +69,21 @@ double close(Bead& bead, const End& end) {
   bead.centre.z() -= end.way * step * bead.sigma_centre * bead.sigma_centre;
   bead.diameter += 0.5 * step * bead.sigma_diameter * bead.sigma_diameter;
   return std::fabs(off) / sigma;
+}
+
+double gap_in_sigmas(const Bridge& pair, const std::vector<Bead>& beads) {
+  return gap(beads[pair.i], beads[pair.j]) / pair.sigma_gap;
+}
+
+/// The least moves, in units of standard errors, after which no pair overlaps and what is closed touches.
+void settle(std::vector<Contact>& contacts, const std::vector<End>& ends, std::vector<Bead>& beads) {
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    double worst = 0.0;
+    for (auto& contact : contacts) worst = std::max(worst, meet(contact, beads));
+    for (const auto& end : ends)
+      for (const std::size_t k : end.touching) worst = std::max(worst, close(beads[k], end));
+    if (worst < kClosed) return;
+  }
 }
 
 /// Counts of beads at an end at some height, by how far they are from it in standard errors.
@@ -82,7 +108,7 @@ End flat_end(const std::vector<Bead>& beads, double way) {
   for (const auto& bead : beads) heights.push_back(end.of(bead));
   std::sort(heights.begin(), heights.end());
   end.height = heights[std::min(heights.size() - 1, kLeastOnPlane)];
-  for (int round = 0; round < 10 * kRounds; ++round) {
+  for (int round = 0; round < kRounds; ++round) {
     const TouchLikelihood likelihood = likelihood_at(end, beads);
     end.touching.clear();
     double sum = 0.0;
@@ -127,28 +153,19 @@ TouchLikelihood touch_likelihood(const std::vector<Bead>& beads) {
 std::vector<Bead> closed_contacts(std::vector<Bead> beads) {
   const double sigma = largest_sigma(beads);
   if (!(sigma > 0.0)) return beads;
-  const TouchLikelihood likelihood = touch_likelihood(beads);
-  std::vector<Bridge> touching = candidate_bridges(beads, kFar * sigma);
-  std::erase_if(touching, [&](const Bridge& pair) { return !likelihood.touches(pair.gap, pair.sigma_gap); });
   const std::vector<End> ends = {flat_end(beads, 1.0), flat_end(beads, -1.0)};
-  // By the gaps as they were measured; later rounds add only beads that have come to overlap.
-  std::set<std::pair<int, int>> known;
-  for (int round = 0; round < kRounds; ++round) {
-    std::erase_if(touching, [](const Bridge& pair) { return !(pair.sigma_gap > 0.0); });
-    for (const auto& pair : touching) known.emplace(pair.i, pair.j);
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      double worst = 0.0;
-      for (const auto& pair : touching)
-        worst = std::max(worst, close(beads[pair.i], beads[pair.j], pair.sigma_gap));
-      for (const auto& end : ends)
-        for (const std::size_t k : end.touching) worst = std::max(worst, close(beads[k], end));
-      if (worst < kClosed) break;
-    }
-    std::vector<Bridge> more = candidate_bridges(beads, -kClosed * sigma);
-    std::erase_if(more, [&](const Bridge& pair) { return known.contains({pair.i, pair.j}); });
-    if (more.empty()) break;
-    touching.insert(touching.end(), more.begin(), more.end());
-  }
+  const double touching = touch_likelihood(beads).touching;
+  std::vector<Contact> contacts;
+  for (const auto& pair : candidate_bridges(beads, kFar * sigma))
+    if (pair.sigma_gap > 0.0) contacts.push_back({pair});
+  settle(contacts, ends, beads);
+  // Of pairs that may touch the nearest do, as many as are estimated.
+  std::stable_sort(contacts.begin(), contacts.end(), [&](const Contact& a, const Contact& b) {
+    return gap_in_sigmas(a.pair, beads) < gap_in_sigmas(b.pair, beads);
+  });
+  const auto count = static_cast<std::size_t>(std::lround(touching));
+  for (std::size_t k = 0; k < std::min(count, contacts.size()); ++k) contacts[k].closed = true;
+  settle(contacts, ends, beads);
   return beads;
 }
 

@@ -19,10 +19,11 @@ struct TouchLikelihood {
 };
 TouchLikelihood touch_likelihood(const std::vector<Bead>& beads);
 
-/// The likeliest beads, given that those touch which likely do, each other and the flat ends along z that at
-/// least five lie on: centres and diameters moved as little as can
-/// be, in units of their stated standard errors, until these gaps are closed (Kaczmarz 1937, projections in
-/// that metric). Beads without stated errors stay where they are.
+/// The likeliest beads, given that none overlap, that as many pairs touch as touch_likelihood() estimates,
+/// and that those touch the flat ends along z which likely do, where at least five lie on one: centres and
+/// diameters moved as little as can be, in units of their stated standard errors (Hildreth 1957, Naval Res.
+/// Logist. Q. 4, 79: projections in that metric). First no pair overlaps any more; then the nearest are
+/// closed. Beads without stated errors stay where they are.
 std::vector<Bead> closed_contacts(std::vector<Bead> beads);
 
 /// Whether a pair's glass touches: to rounding, or where its errors are stated to the hundredth of them to
