@@ -87,8 +87,9 @@ void add_pack(CLI::App& app) {
       "bridge in --bridges. The specimen has the sample's size, its axis in the middle of the beads' extent "
       "and\n"
       "its bottom at the lowest bead. The statistics are written beside the packing as .json.\n"
-      "Where errors are stated (sigma_centre_um, sigma_diameter_um), beads that likely touch are moved and\n"
-      "resized within these until they do, unless the sample has beads.diameters = \"drawn\".");
+      "Where errors are stated (sigma_centre_um, sigma_diameter_um), beads are moved and resized by these "
+      "until\n"
+      "none overlap and as many touch as likely do, unless the sample has beads.diameters = \"drawn\".");
   command->add_option("beads", options->beads,
                       "beads.csv (bead_id,x_um,y_um,z_um,diameter_um,...; axes x, y, z)");
   command->add_option("--sample", options->sample, "Sample file (.toml)")->required();

@@ -68,7 +68,7 @@ def segment(volume: Volume | PathLike, *, voxel_um: float | None = None, bridges
 def pack(beads: np.ndarray | PathLike, sample: Sample | PathLike, *, bridges: np.ndarray | PathLike | None = None,
          progress: Progress = None, threads: int = 0) -> _core.Packing:
     """Beads to a packing in the sample's specimen, with candidate bridges or those of state `bridge` in `bridges`. Where
-    errors are stated, beads that likely touch are moved and resized within these until they do."""
+    errors are stated, beads are moved and resized by these until none overlap and as many touch as likely do."""
     return pack_report(beads, sample, bridges=bridges, progress=progress, threads=threads)[0]
 
 
