@@ -106,10 +106,8 @@ void run(const DiagnoseOptions& options) {
   const auto experiment = diagnosis::read_experiment(options.file);
   diagnosis::require_features(experiment);
   protect_also(inputs_of(options, experiment));
-  if (options.dry_run) {
-    for (const auto& warning : experiment.warnings) warn(warning);
-    return tell_cost(options, experiment);
-  }
+  for (const auto& warning : experiment.warnings) warn(warning);  // runs take minutes
+  if (options.dry_run) return tell_cost(options, experiment);
   const fs::path beads = options.making.store_folder(options.common) / "measured";
   const auto bank = diagnosis::plan_bank(experiment, bank_options(options), beads);
   make_folder(options.common.out);
@@ -123,7 +121,9 @@ void run(const DiagnoseOptions& options) {
   ::malloc_trim(0);  // what runs took goes back: pictures need memory of their own
   found.provenance = provenance(options.common, inputs_of(options, experiment));
   diagnosis_report::write_report_folder(options.common.out, found);
-  for (const auto& warning : found.warnings) warn(warning);
+  const auto& said = experiment.warnings;
+  for (const auto& warning : found.warnings)
+    if (std::find(said.begin(), said.end(), warning) == said.end()) warn(warning);
 }
 
 }  // namespace
