@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "packing/bridges.h"
 
@@ -75,14 +77,28 @@ double gap_in_sigmas(const Bridge& pair, const std::vector<Bead>& beads) {
   return gap(beads[pair.i], beads[pair.j]) / pair.sigma_gap;
 }
 
+/// Adds pairs, nearer than some gap, that are not known yet. Returns whether there are any.
+bool add_nearer(double than, const std::vector<Bead>& beads, std::vector<Contact>& contacts) {
+  std::set<std::pair<int, int>> known;
+  for (const auto& contact : contacts) known.emplace(contact.pair.i, contact.pair.j);
+  for (const auto& pair : candidate_bridges(beads, than))
+    if (pair.sigma_gap > 0.0 && !known.contains({pair.i, pair.j})) contacts.push_back({pair});
+  return contacts.size() > known.size();
+}
+
 /// The least moves, in units of standard errors, after which no pair overlaps and what is closed touches.
-void settle(std::vector<Contact>& contacts, const std::vector<End>& ends, std::vector<Bead>& beads) {
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    double worst = 0.0;
-    for (auto& contact : contacts) worst = std::max(worst, meet(contact, beads));
-    for (const auto& end : ends)
-      for (const std::size_t k : end.touching) worst = std::max(worst, close(beads[k], end));
-    if (worst < kClosed) return;
+/// Where errors are larger than stated, pairs that were far apart may come to overlap: they are added.
+void settle(double sigma, const std::vector<End>& ends, std::vector<Contact>& contacts,
+            std::vector<Bead>& beads) {
+  for (int round = 0; round < kRounds; ++round) {
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      double worst = 0.0;
+      for (auto& contact : contacts) worst = std::max(worst, meet(contact, beads));
+      for (const auto& end : ends)
+        for (const std::size_t k : end.touching) worst = std::max(worst, close(beads[k], end));
+      if (worst < kClosed) break;
+    }
+    if (!add_nearer(-kClosed * sigma, beads, contacts)) return;
   }
 }
 
@@ -156,16 +172,15 @@ std::vector<Bead> closed_contacts(std::vector<Bead> beads) {
   const std::vector<End> ends = {flat_end(beads, 1.0), flat_end(beads, -1.0)};
   const double touching = touch_likelihood(beads).touching;
   std::vector<Contact> contacts;
-  for (const auto& pair : candidate_bridges(beads, kFar * sigma))
-    if (pair.sigma_gap > 0.0) contacts.push_back({pair});
-  settle(contacts, ends, beads);
+  add_nearer(kFar * sigma, beads, contacts);
+  settle(sigma, ends, contacts, beads);
   // Of pairs that may touch the nearest do, as many as are estimated.
   std::stable_sort(contacts.begin(), contacts.end(), [&](const Contact& a, const Contact& b) {
     return gap_in_sigmas(a.pair, beads) < gap_in_sigmas(b.pair, beads);
   });
   const auto count = static_cast<std::size_t>(std::lround(touching));
   for (std::size_t k = 0; k < std::min(count, contacts.size()); ++k) contacts[k].closed = true;
-  settle(contacts, ends, beads);
+  settle(sigma, ends, contacts, beads);
   return beads;
 }
 

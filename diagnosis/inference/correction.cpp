@@ -141,13 +141,14 @@ const Hypothesis* stand_in(const Hypothesis& h, const std::vector<Hypothesis>& s
   std::map<std::string, double> means;
   const auto ids = effects_in(h.id);
   for (std::size_t k = 0; k < h.magnitudes.size(); ++k) means[ids[k]] = h.magnitudes[k].mean;
-  const double least = (h.magnitudes.size() == 1 ? kThresholds.strong : 1.0) * h.probability;
+  const bool single = ids.size() == 1;
+  const double least = (single ? kThresholds.strong : 1.0) * h.probability;
   const double strong = correction.temperature * std::log(kThresholds.strong);
   const Hypothesis* best = nullptr;
   for (const auto& id : not_told_from(h.id, means, correction))
     if (const Hypothesis* other = said_of(said, id);
         other && other->probability > std::max(least, best ? best->probability : 0.0) &&
-        (ids.size() == 1 || h.log_evidence - other->log_evidence < strong))
+        (single || h.log_evidence - other->log_evidence < strong))
       best = other;
   return best;
 }
