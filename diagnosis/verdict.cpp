@@ -15,7 +15,8 @@
 namespace pendular::diagnosis {
 namespace {
 
-constexpr std::size_t kListed = 3;  // names in a row; the report has all
+constexpr std::size_t kListed = 3;       // names in a row; the report has all
+constexpr double kWorthASentence = 0.1;  // probability of a pair beside `unknown`; less is listed alone
 
 /// The members of the set beside the most probable one, and but for one more.
 std::vector<std::string> others(const Diagnosis& diagnosis, const std::string& but = "") {
@@ -42,7 +43,8 @@ std::string cause(const Diagnosis& diagnosis) {
                        joined(rest, kListed));
   }
   const Explanation* named = to_add(diagnosis);
-  if (best.id == kUnknown && named && named->magnitudes.size() == 2) {
+  if (best.id == kUnknown && named && named->magnitudes.size() == 2 &&
+      named->probability >= kWorthASentence) {
     const auto besides = others(diagnosis, named->id);
     return fmt::format(
         "The cause is not known: {} would explain the gap, probability {}, but where one effect leaves as "

@@ -137,12 +137,18 @@ TEST(Verdict, WhereUnknownLeadsTheNextThatHasANameIsAdded) {
       << verdict_of(d);
 }
 
-TEST(Verdict, WhereUnknownLeadsAPairThePairIsNamed) {
+TEST(Verdict, WhereUnknownLeadsAPairThePairIsNamedIfItIsNotUnlikely) {
   const Explanation pair{"missing_bridges+bead_friction",
                          0.3,
                          {{0.1967, {0.1802, 0.2121}}, {-0.2041, {-0.2577, -0.1512}}},
                          {"fraction", "1"}};
   const Diagnosis d = told({bare("unknown", 0.65), pair, missing(0.05)}, 3);
+  Explanation hardly = pair;
+  hardly.probability = 0.02;
+  EXPECT_TRUE(verdict_of(told({bare("unknown", 0.93), hardly, missing(0.01)}, 3))
+                  .starts_with("The cause is not known: no effect of the library explains the gap, "
+                               "probability 93 %; not excluded: bridges missing between near beads with bead "
+                               "friction other than stated (missing_bridges+bead_friction)"));
   EXPECT_TRUE(verdict_of(d).starts_with(
       "The cause is not known: bridges missing between near beads with bead friction other than stated "
       "(missing_bridges+bead_friction), 20 % (18 to 21 %) and -0.20 (-0.26 to -0.15) would explain the gap, "
