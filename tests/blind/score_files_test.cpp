@@ -15,7 +15,7 @@ using nlohmann::json;
 class ScoreFiles : public seven_cases::Score {};
 
 /// How many sealed cases the README states.
-int cases_in_readme(const fs::path& project) {
+static int cases_in_readme(const fs::path& project) {
   const std::string page = read_text(project / "README.md"), before = "withheld cause in the named set | ";
   std::istringstream row(page.substr(page.find(before) + before.size()));
   int named = 0, cases = 0;
